@@ -1,0 +1,20 @@
+"""Direct simulation Monte Carlo of granular and molecular gases."""
+
+from . import scenarios, theory
+from .faults import FaultError, NotSteadyError
+from .gas import ElasticHardSpheres, InelasticHardSpheres
+from .result import Estimate, Result, load
+from .run import run
+
+__all__ = [
+    "ElasticHardSpheres",
+    "Estimate",
+    "FaultError",
+    "InelasticHardSpheres",
+    "NotSteadyError",
+    "Result",
+    "load",
+    "run",
+    "scenarios",
+    "theory",
+]

@@ -1,0 +1,229 @@
+"""From the history of a run to a labelled result."""
+
+import itertools
+import platform
+import subprocess
+from importlib import metadata
+from pathlib import Path
+
+import equinox as eqx
+import jax
+import numpy as np
+import xarray as xr
+
+from . import grid
+from .history import History
+from .measure import BIN_WIDTH, bin_centres
+from .observables import collisional
+from .options import Options
+from .result import Result
+from .stats import jackknife
+from .steady import SteadyTracker
+
+DESCRIPTIONS = {
+    "time": ("time", "τ0"),
+    "collisions": ("accepted collisions per particle s", "1"),
+    "collision_ratio": ("collisions over their local-equilibrium number s/s0", "1"),
+    "collision_rate_ratio": ("collision rate over its local-equilibrium value", "1"),
+    "temperature": ("temperature T/T0", "1"),
+    "reduced_shear_rate": ("a* = a τ_η", "1"),
+    "shear_stress": ("-P_xy/nT", "1"),
+    "normal_stress_xy": ("(P_xx-P_yy)/nT", "1"),
+    "normal_stress_zy": ("(P_zz-P_yy)/nT", "1"),
+    "pressure_xx": ("P_xx/nT", "1"),
+    "pressure_yy": ("P_yy/nT", "1"),
+    "pressure_zz": ("P_zz/nT", "1"),
+    "reduced_viscosity": ("η* = (-P_xy/nT)/a*", "1"),
+    "first_viscometric": ("-Ψ1 = (P_xx-P_yy)/(nT a*²)", "1"),
+    "second_viscometric": ("Ψ2 = (P_zz-P_yy)/(nT a*²)", "1"),
+    "relative_speed_cubed": ("⟨V12³⟩/⟨V12³⟩0 from random pairs", "1"),
+    "relative_speed_cubed_collisional": ("⟨V12³⟩/⟨V12³⟩0 from the energy lost", "1"),
+    "a2": ("fourth cumulant", "1"),
+    "a3": ("sixth cumulant", "1"),
+    "speed_ratio": ("R_l, share of particles in a speed class over the Maxwellian one", "1"),
+    "marginal_x": ("g_x^(+)(C_x)", "1"),
+    "marginal_y": ("g_y^(+)(C_y)", "1"),
+    "speed": ("F(C)", "1"),
+}
+
+
+def assemble(scene, options: Options, history: History, tracker, attrs: dict) -> Result:
+    """Everything measured, labelled by the swept dimensions.
+
+    Arguments: the scene as the user made it; the history; the tracker, or None where steady
+    values make no sense; attributes that tell how the run ended.
+    """
+    flat, shape = grid.flatten(scene)
+    dims, coords = tuple(grid.dimensions(scene)), grid.dimensions(scene)
+    groups = {"/series": _series(flat, shape, dims, coords, history)}
+    root = xr.Dataset(coords=coords)
+    if tracker is not None and history.length and tracker.all_measuring:
+        steady = _steady(flat, history, tracker)
+        if steady is not None:
+            root = _dataset(steady, shape, dims, coords, {"speed_ratio": ("speed_class",)})
+            root["speed_class"] = np.arange(4)
+            root["steady_from_time"] = dims, _at_start(history, "time", tracker).reshape(shape)
+            root["steady_from_collisions"] = (
+                dims,
+                _at_start(history, "collisions", tracker).reshape(shape),
+            )
+            groups["/distribution"] = _distribution(history, tracker, options, shape, dims, coords)
+    root.attrs = provenance(scene, options) | attrs
+    groups["/"] = root
+    return Result(xr.DataTree.from_dict(groups))
+
+
+def steady_estimates(scene, history: History, point: int, edges) -> tuple[dict, dict]:
+    """Values and standard errors of all observables of one point.
+
+    `edges` is the record to start from, or an array of them: each block between two of them then
+    counts as a realization.
+    """
+    edges = [edges, history.length] if np.ndim(edges) == 0 else edges
+    blocks = [history.point(point, a, b) for a, b in itertools.pairwise(edges)]
+    means = {name: np.concatenate([b[name] for b in blocks]) for name in blocks[0]}
+    one = grid.take(scene, point)
+
+    def observables(averages):
+        restitution, factor = one.gas.restitution, float(one.gas.local_collision_factor())
+        return {
+            **one.observables(averages),
+            **collisional(averages, restitution, factor),
+        }
+
+    return jackknife(means, observables, axis=0)
+
+
+def _steady(flat, history: History, tracker: SteadyTracker):
+    points = len(tracker.start)
+    if np.any(tracker.start >= history.length - 1):
+        return None
+    estimates = [steady_estimates(flat, history, p, tracker.start[p]) for p in range(points)]
+    names = estimates[0][0]
+    return {
+        name: tuple(np.array([pair[k][name] for pair in estimates]) for k in (0, 1))
+        for name in names
+    }
+
+
+def _series(flat, shape, dims, coords, history: History) -> xr.Dataset:
+    time, means = history.on_common_times()
+    column = grid.take(flat, (slice(None), None))
+    factor = np.asarray(column.gas.local_collision_factor(), dtype=float)
+
+    def observables(averages):
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ratio = averages["collisions"] / (factor * averages["local_collisions"])
+        return {
+            **column.observables(averages),
+            "collisions": averages["collisions"],
+            "collision_ratio": ratio,
+        }
+
+    value, error = jackknife(means, observables, axis=1)
+    pairs = {name: (value[name], error[name]) for name in value}
+    data = _dataset(pairs, shape, (*dims, "sample"), coords, {"speed_ratio": ("speed_class",)})
+    data = data.assign_coords(
+        time=((*dims, "sample"), time.reshape(*shape, -1), _described("time"))
+    )
+    return data
+
+
+def _distribution(history, tracker, options, shape, dims, coords) -> xr.Dataset:
+    pairs = {}
+    for name, axis, density in (
+        ("marginal_x", "velocity", 0.5 / BIN_WIDTH),
+        ("marginal_y", "velocity", 0.5 / BIN_WIDTH),
+        ("speed", "speed_bin", 1.0 / BIN_WIDTH),
+    ):
+        means = [
+            density * history.samples(p, first, options.records)[name]
+            for p, first in enumerate(tracker.start)
+        ]
+        value = np.array([np.mean(m, axis=0) for m in means])
+        error = np.array([np.std(m, axis=0, ddof=1) / np.sqrt(len(m)) for m in means])
+        pairs[name] = (value, error, axis)
+    data = xr.Dataset(coords=coords)
+    for name, (value, error, axis) in pairs.items():
+        for suffix, array in (("", value), ("_error", error)):
+            data[name + suffix] = (
+                (*dims, axis),
+                array.reshape(*shape, -1),
+                _described(name + suffix),
+            )
+    return data.assign_coords(
+        velocity=("velocity", bin_centres(True)), speed_bin=("speed_bin", bin_centres(False))
+    )
+
+
+def _dataset(pairs, shape, dims, coords, extra) -> xr.Dataset:
+    """Variables `name` and `name_error` from arrays whose first axis is the sweep point."""
+    data = xr.Dataset(coords=coords)
+    for name, arrays in pairs.items():
+        for suffix, array in zip(("", "_error"), arrays, strict=True):
+            full = array.reshape(shape + array.shape[1:])
+            data[name + suffix] = (
+                (*dims, *extra.get(name, ())),
+                full,
+                _described(name + suffix),
+            )
+    return data
+
+
+def _described(name: str) -> dict:
+    base = name.removesuffix("_error")
+    long, unit = DESCRIPTIONS.get(base, (base, "1"))
+    return {"long_name": f"standard error of {long}" if base != name else long, "units": unit}
+
+
+def _at_start(history: History, name: str, tracker: SteadyTracker) -> np.ndarray:
+    return np.array([np.mean(history[name][p, :, k]) for p, k in enumerate(tracker.start)])
+
+
+def provenance(scene, options: Options) -> dict:
+    """Parameters, options, versions and commit, as attributes of a file."""
+    numbers = {
+        f"parameter_{name}": value if value.ndim else float(value)
+        for name, value in grid.parameters(scene).items()
+    }
+    names = {
+        f"option_{leaf}": str(getattr(scene.gas, leaf))
+        for leaf in ("drag", "rate_factor")
+        if isinstance(getattr(scene.gas, leaf, None), str)
+    }
+    return {
+        "jdsmc_version": metadata.version("jdsmc"),
+        "jax_version": jax.__version__,
+        "numpy_version": np.__version__,
+        "equinox_version": eqx.__version__,
+        "python_version": platform.python_version(),
+        "commit": commit(),
+        "backend": jax.default_backend(),
+        "scene": type(scene).__name__,
+        "gas_model": type(scene.gas).__name__,
+        **numbers,
+        **names,
+        "n_particles": options.plan.rows * options.plan.lanes,
+        "time_step": options.time_step,
+        "splitting": options.splitting,
+        "dtype": str(options.dtype),
+    }
+
+
+def commit() -> str:
+    """The git commit of the package's checkout, "+" if changed, or "unknown"."""
+    folder = Path(__file__).parent
+
+    def git(*arguments):
+        return subprocess.run(
+            ["git", "-C", str(folder), *arguments],
+            capture_output=True,
+            text=True,
+            check=True,
+            timeout=5,
+        ).stdout.strip()
+
+    try:
+        return git("rev-parse", "HEAD") + ("+" if git("status", "--porcelain", str(folder)) else "")
+    except (OSError, subprocess.SubprocessError):
+        return "unknown"

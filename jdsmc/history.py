@@ -1,0 +1,132 @@
+"""Records of a run on the host: times, collisions, averages over any window."""
+
+import numpy as np
+
+from .observables import particle_means
+
+
+class History:
+    """Everything measured so far, arrays (points, realizations, records, ...)."""
+
+    def __init__(self, n_particles: int):
+        self.n_particles = n_particles
+        self._records: list[dict[str, np.ndarray]] = []
+        self._samples: list = []
+        self._joined: dict[str, np.ndarray] = {}
+        self.total_excess = 0.0
+
+    def append(self, record, sample) -> None:
+        """Add the records and the sample of one chunk."""
+        tally = record.tally
+        self._records.append(
+            {
+                **particle_means(record),
+                "elapsed": record.elapsed,
+                "accepted": tally.accepted / self.n_particles,
+                "energy_lost": tally.energy_lost / self.n_particles,
+            }
+        )
+        self._samples.append(sample)
+        self.total_excess += float(np.sum(tally.excess))
+        self._joined = {}
+
+    def _all(self) -> dict[str, np.ndarray]:
+        if not self._joined:
+            names = self._records[0]
+            self._joined = {
+                name: np.concatenate([r[name] for r in self._records], axis=2) for name in names
+            }
+            for name, rate in (("time", "elapsed"), ("collisions", "accepted")):
+                total = np.cumsum(self._joined[rate], axis=2)
+                self._joined[name] = total - self._joined[rate]
+        return self._joined
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self._all()[name]
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the averages over particles."""
+        skip = ("elapsed", "accepted", "energy_lost", "time", "collisions")
+        return [name for name in self._all() if name not in skip]
+
+    @property
+    def length_or_zero(self) -> int:
+        """Number of records, also before the first."""
+        return self.length if self._records else 0
+
+    @property
+    def length(self) -> int:
+        """Number of records."""
+        return self["elapsed"].shape[2]
+
+    def point(self, point: int, first: int, last: int) -> dict[str, np.ndarray]:
+        """Averages over a window of records of one point: arrays (realizations, ...).
+
+        Averages over particles are weighted with the time their record stands for; `accepted` and
+        `energy_lost` become rates per particle and time.
+        """
+        window = slice(first, last)
+        elapsed = self["elapsed"][point, :, window]
+        total = np.sum(elapsed, axis=1)
+        means = {}
+        for name in self.names:
+            values = self[name][point, :, window]
+            weights = elapsed.reshape(elapsed.shape + (1,) * (values.ndim - 2))
+            scale = total.reshape(total.shape + (1,) * (values.ndim - 2))
+            means[name] = np.sum(weights * values, axis=1) / scale
+        for name in ("accepted", "energy_lost"):
+            means[name] = np.sum(self[name][point, :, window], axis=1) / total
+        means["time_step"] = np.mean(elapsed, axis=1)
+        return means
+
+    def samples(self, point: int, first: int, records_per_chunk: int) -> dict[str, np.ndarray]:
+        """Chunk samples of one point taken after record `first`: means (realizations, bins)."""
+        kept = self._samples[-(-first // records_per_chunk) :]
+        if not kept:
+            return {}
+        names = kept[0].__dataclass_fields__
+        return {n: np.mean([getattr(s, n)[point] for s in kept], axis=0) for n in names}
+
+    def mean_collisions(self) -> np.ndarray:
+        """Accepted collisions per particle so far, (points,)."""
+        return np.mean(np.sum(self["accepted"], axis=2), axis=1)
+
+    def mean_time(self) -> np.ndarray:
+        """Time so far (τ0), (points,)."""
+        return np.mean(np.sum(self["elapsed"], axis=2), axis=1)
+
+    def record_at_collisions(self, point: int, collisions: float) -> int:
+        """First record at which a point has made that many collisions per particle."""
+        return int(np.searchsorted(np.mean(self["collisions"][point], axis=0), collisions))
+
+    def on_common_times(self) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        """Averages of every realization at the mean times of the records.
+
+        Realizations have their own clocks (their time step follows their own temperature); each is
+        interpolated linearly in time to the mean clock of its point.
+        Returns: times (points, records) and averages (points, realizations, records, ...).
+        """
+        time = self["time"]
+        common = np.mean(time, axis=1)
+        thermal = np.sqrt(2.0 * self["temperature"])
+        series = {name: self[name] for name in self.names} | {"collisions": self["collisions"]}
+        series["local_collisions"] = _integral(time, thermal) / np.sqrt(np.pi)
+        out = {name: np.empty_like(values) for name, values in series.items()}
+        for p, r in np.ndindex(time.shape[:2]):
+            for name, values in series.items():
+                out[name][p, r] = _interpolate(common[p], time[p, r], values[p, r])
+        return common, out
+
+
+def _integral(time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Trapezoidal integral from the first record, along the last axis."""
+    pieces = 0.5 * (values[..., 1:] + values[..., :-1]) * np.diff(time, axis=-1)
+    return np.concatenate([np.zeros_like(values[..., :1]), np.cumsum(pieces, axis=-1)], axis=-1)
+
+
+def _interpolate(at: np.ndarray, time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    if values.ndim == 1:
+        return np.interp(at, time, values)
+    columns = [np.interp(at, time, column) for column in values.T]
+    return np.stack(columns, axis=-1)

@@ -1,0 +1,122 @@
+"""Sums over the particles of a homogeneous gas, made on the device; ratios are taken on the host."""
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from . import random
+from .collide import Collisions
+from .drive import mean
+from .types import Key, Scalar, Velocity
+
+SPEED_CLASSES = (1.0, 2.0, 3.0)
+"""Inner limits C_1..C_3 of the speed classes of eq. (3.15), in units of v0(T)."""
+
+BIN_WIDTH = 0.1
+LARGEST_VELOCITY = 10.0
+"""Histograms cover |C| < 10; what lies beyond is left out of them, not moved into the last bin."""
+
+
+class Moments(eqx.Module):
+    """Means over the particles at one instant (units of v0).
+
+    `xx`..`xy`: ⟨V_i V_j⟩; `fourth`, `sixth`: ⟨V⁴⟩, ⟨V⁶⟩; `cubed`: ⟨V12³⟩ over N random pairs;
+    `classes`: fractions of particles with C in [0,1), [1,2), [2,3), [3,∞).
+    """
+
+    xx: Scalar
+    yy: Scalar
+    zz: Scalar
+    xy: Scalar
+    fourth: Scalar
+    sixth: Scalar
+    cubed: Scalar
+    classes: Float[Array, "4"]
+
+    def temperature(self) -> Scalar:
+        """T = m⟨V²⟩/3, eq. (4.15)."""
+        return (self.xx + self.yy + self.zz) / 3.0
+
+
+class Distributions(eqx.Module):
+    """Fractions of particles in velocity bins of width 0.1 v0(T), at one instant.
+
+    `marginal_x`: C_x sign(C_y), so that both halves of eq. (5.3) are used; `marginal_y` likewise;
+    `speed`: C.
+    """
+
+    marginal_x: Float[Array, " bins"]
+    marginal_y: Float[Array, " bins"]
+    speed: Float[Array, " half_bins"]
+
+
+class Record(eqx.Module):
+    """What one record reports: the moments at its start, what its steps did, and for how long.
+
+    `elapsed` is in τ0; see `Collisions` for the tally.
+    """
+
+    moments: Moments
+    tally: Collisions
+    elapsed: Scalar
+
+
+def centred(velocity: Velocity) -> Velocity:
+    """Subtract the mean velocity: removes the drift that rounding lets in."""
+    return tuple(v - mean(v) for v in velocity)
+
+
+def random_pair_cubed(key: Key, velocity: Velocity) -> Scalar:
+    """⟨|V_1 - V_2|³⟩ over N pairs: each particle with one at a random distance in memory."""
+    rows, lanes = velocity[0].shape
+    words = random.bits(key, (2,))[0]
+    row_shift = 1 + words[0] % jnp.uint32(rows - 1)
+    lane_shift = words[1] % jnp.uint32(lanes)
+    squared = sum((v - jnp.roll(v, (row_shift, lane_shift), axis=(0, 1))) ** 2 for v in velocity)
+    return mean(squared * jnp.sqrt(squared))
+
+
+def moments(key: Key, velocity: Velocity) -> Moments:
+    """All moments of one instant. `key` chooses the random pairs."""
+    vx, vy, vz = velocity
+    squared = vx * vx + vy * vy + vz * vz
+    xx, yy, zz = mean(vx * vx), mean(vy * vy), mean(vz * vz)
+    thermal = (2.0 / 3.0) * (xx + yy + zz)
+    below = [mean((squared < c * c * thermal).astype(vx.dtype)) for c in SPEED_CLASSES]
+    edges = jnp.stack([jnp.zeros_like(xx), *below, jnp.ones_like(xx)])
+    return Moments(
+        xx,
+        yy,
+        zz,
+        mean(vx * vy),
+        mean(squared * squared),
+        mean(squared * squared * squared),
+        random_pair_cubed(key, velocity),
+        jnp.diff(edges),
+    )
+
+
+def distributions(velocity: Velocity) -> Distributions:
+    """Histograms of one instant, in units of the thermal speed of that instant."""
+    vx, vy, vz = velocity
+    squared = vx * vx + vy * vy + vz * vz
+    scale = jnp.sqrt(1.5 / mean(squared))
+    half = round(LARGEST_VELOCITY / BIN_WIDTH)
+    return Distributions(
+        _histogram(vx * jnp.sign(vy) * scale, -half, half),
+        _histogram(vy * jnp.sign(vx) * scale, -half, half),
+        _histogram(jnp.sqrt(squared) * scale, 0, half),
+    )
+
+
+def _histogram(values, first: int, last: int):
+    index = jnp.floor(values / BIN_WIDTH).astype(jnp.int32).ravel() - first
+    counts = jnp.zeros(last - first, jnp.int32).at[index].add(1, mode="drop")
+    return counts.astype(values.dtype) / values.size
+
+
+def bin_centres(symmetric: bool) -> np.ndarray:
+    """Centres of the bins: of `marginal_x`, `marginal_y` (symmetric) or of `speed`."""
+    half = round(LARGEST_VELOCITY / BIN_WIDTH)
+    return (np.arange(-half if symmetric else 0, half) + 0.5) * BIN_WIDTH

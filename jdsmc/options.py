@@ -1,0 +1,46 @@
+"""The numerical options of a run: everything static, nothing physical but the time step."""
+
+from dataclasses import dataclass
+
+import jax
+import jax.numpy as jnp
+
+from . import check
+from .pairs import PairPlan, plan_pairs
+
+
+@dataclass(frozen=True)
+class Options:
+    """Sizes and switches that select a compiled program.
+
+    `time_step`: largest step as a fraction of τ(T) and of 1/a; `steps`: steps per record;
+    `records`: records per chunk (what is done between two looks at the clock).
+    """
+
+    plan: PairPlan
+    time_step: float
+    splitting: str
+    steps: int
+    records: int
+    dtype: jnp.dtype
+
+    @staticmethod
+    def checked(
+        n_particles: int,
+        time_step: float,
+        splitting: str,
+        dtype: str,
+        steps: int,
+        records: int,
+    ) -> "Options":
+        """Check the options of `run` and lay out the particles; raises ValueError or TypeError."""
+        check.at_least("n_particles", n_particles, 1)
+        check.in_range("time_step", time_step, 0.0, 1.0, low_included=False)
+        check.one_of("splitting", splitting, ("strang", "lie"))
+        check.one_of("dtype", str(dtype), ("float32", "float64"))
+        if str(dtype) == "float64" and not jax.config.read("jax_enable_x64"):
+            raise ValueError(
+                'dtype = "float64" needs jax.config.update("jax_enable_x64", True) before the run.'
+            )
+        plan = plan_pairs(n_particles, float(time_step))
+        return Options(plan, float(time_step), splitting, steps, records, jnp.dtype(dtype))

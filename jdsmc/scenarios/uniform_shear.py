@@ -1,0 +1,130 @@
+"""Uniform shear flow, homogeneous in the frame that moves with the flow.
+
+Astillero and Santos, "Uniform shear flow in dissipative gases" (2005), sections III and IV B: only
+peculiar velocities are kept, and convection is the inertial force -m a V_y x̂ (eq. 3.4).
+"""
+
+from typing import ClassVar
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+
+from .. import check, random
+from ..collide import Collisions, collide
+from ..drive import shear, sheared_drag
+from ..gas import INITIAL_TEMPERATURE, AbstractGas
+from ..measure import (
+    Distributions,
+    Record,
+    centred,
+    distributions,
+    moments,
+    random_pair_cubed,
+)
+from ..observables import MAXWELL_CUBED, isotropic, rheology
+from ..options import Options
+from ..pairs import remix
+from ..state import HomogeneousState
+from ..types import Key, Scalar, Velocity
+
+
+class UniformShear(eqx.Module):
+    """A gas under a constant shear rate, started from local equilibrium at T0 (eq. 3.12).
+
+    Arguments:
+        gas: `InelasticHardSpheres` or `ElasticHardSpheres`.
+        shear_rate: a in units of 1/τ0, at least 0; number or, for a sweep, a 1-D array.
+    Raises ValueError for a negative shear rate.
+    """
+
+    steady_observables: ClassVar[tuple[str, ...]] = (
+        *("temperature", "shear_stress", "normal_stress_xy", "normal_stress_zy"),
+        *("reduced_shear_rate", "reduced_viscosity", "first_viscometric", "second_viscometric"),
+        *("relative_speed_cubed", "a2", "a3", "speed_ratio", "collision_rate_ratio"),
+    )
+
+    gas: AbstractGas
+    shear_rate: np.ndarray = eqx.field(converter=check.physical)
+
+    def __check_init__(self):
+        if not isinstance(self.gas, AbstractGas):
+            raise TypeError(f"gas must be a jdsmc gas, got {self.gas!r}.")
+        check.in_range("shear_rate", self.shear_rate, 0.0, np.inf, high_included=False)
+
+    def has_steady_state(self) -> bool:
+        """True if heating and cooling can balance at every point: a > 0 and α < 1."""
+        return bool(np.all(self.shear_rate > 0) and np.all(self.gas.restitution < 1))
+
+    def initial(self, key: Key, options: Options) -> HomogeneousState:
+        """Maxwellian velocities with mean exactly zero and temperature exactly T0."""
+        return HomogeneousState.maxwellian(key, options, INITIAL_TEMPERATURE)
+
+    def time_step(self, temperature: Scalar, options: Options) -> Scalar:
+        """The asked fraction of τ(T) or of 1/a, whichever is shorter."""
+        rate = jnp.maximum(jnp.sqrt(2.0 * temperature), self.shear_rate)
+        return options.time_step / rate
+
+    def flow(self, velocity: Velocity, duration: Scalar, drag_ratio: Scalar) -> Velocity:
+        """Shear, and for a frictional gas the drag, during `duration`."""
+        if self.gas.frictional:
+            drag = self.gas.drag_coefficient() * drag_ratio
+            return sheared_drag(velocity, self.shear_rate, drag, duration)
+        return shear(velocity, self.shear_rate * duration)
+
+    def step(
+        self,
+        key: Key,
+        velocity: Velocity,
+        majorant: Scalar,
+        duration: Scalar,
+        options: Options,
+    ) -> tuple[Velocity, Collisions]:
+        """One time step: half a flow, collisions, half a flow ("strang"), or as in the paper."""
+        drag_ratio = self.drag_ratio(random.fold_in(key, 1), velocity)
+        before, after = (0.5, 0.5) if options.splitting == "strang" else (1.0, 0.0)
+        velocity = self.flow(velocity, before * duration, drag_ratio)
+        velocity, tally = collide(
+            random.fold_in(key, 0), self.gas, options.plan, velocity, majorant, duration
+        )
+        if after:
+            velocity = self.flow(velocity, after * duration, drag_ratio)
+        return velocity, tally
+
+    def drag_ratio(self, key: Key, velocity: Velocity) -> Scalar:
+        """Factor of the drag: 1, or ⟨V12³⟩/⟨V12³⟩0 of the present velocities if asked."""
+        if not self.gas.measured_drag:
+            return jnp.ones((), velocity[0].dtype)
+        temperature = HomogeneousState.temperature_of(velocity)
+        return random_pair_cubed(key, velocity) / (MAXWELL_CUBED * temperature**1.5)
+
+    def advance(
+        self, key: Key, state: HomogeneousState, options: Options
+    ) -> tuple[HomogeneousState, Record]:
+        """One record: measure, choose the time step, then make `options.steps` of them."""
+        velocity = centred(state.velocity)
+        sampled = moments(random.fold_in(key, 0), velocity)
+        temperature = lax.stop_gradient(sampled.temperature())
+        thermal = jnp.sqrt(2.0 * temperature)
+        majorant = state.majorant * thermal
+        longest = options.plan.largest_hits() * 2.0**0.5 / majorant
+        duration = jnp.minimum(lax.stop_gradient(self.time_step(temperature, options)), longest)
+
+        def one_step(velocity, count):
+            step_key = random.fold_in(key, count + 1)
+            return self.step(step_key, velocity, majorant, duration, options)
+
+        velocity, tallies = lax.scan(one_step, velocity, jnp.arange(options.steps))
+        tally = Collisions.over(tallies)
+        state = HomogeneousState(velocity, state.raised(tally.fastest / thermal))
+        return state, Record(sampled, tally, options.steps * duration)
+
+    def finish_chunk(self, state: HomogeneousState) -> tuple[HomogeneousState, Distributions]:
+        """Sample the velocity distributions and deal the particles into new rows."""
+        sample = distributions(state.velocity)
+        return HomogeneousState(tuple(map(remix, state.velocity)), state.majorant), sample
+
+    def observables(self, means: dict) -> dict:
+        """Observables from averages over particles, realizations and time (host arrays)."""
+        return {**isotropic(means), **rheology(means, self.shear_rate)}

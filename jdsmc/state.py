@@ -1,0 +1,43 @@
+"""What a simulation carries from step to step."""
+
+import equinox as eqx
+import jax.numpy as jnp
+
+from . import random
+from .drive import mean
+from .options import Options
+from .types import Key, Scalar, Velocity
+
+INITIAL_MAJORANT = 6.0
+"""First bound on relative speeds over v0(T): a Maxwellian exceeds it once in 6e7 pairs."""
+
+RAISE = 1.05
+"""A pair faster than the majorant raises it to this times its speed."""
+
+
+class HomogeneousState(eqx.Module):
+    """Velocities, each component rows x lanes (v0), and the majorant over v0(T)."""
+
+    velocity: Velocity
+    majorant: Scalar
+
+    @staticmethod
+    def maxwellian(key: Key, options: Options, temperature: float) -> "HomogeneousState":
+        """Maxwellian velocities, shifted and scaled to mean zero and the exact temperature."""
+        shape = (options.plan.rows, options.plan.lanes)
+        vx, vy = random.normal_pair(random.bits(random.fold_in(key, 0), shape), options.dtype)
+        vz, _ = random.normal_pair(random.bits(random.fold_in(key, 1), shape), options.dtype)
+        velocity = tuple(v - mean(v) for v in (vx, vy, vz))
+        scale = jnp.sqrt(temperature / HomogeneousState.temperature_of(velocity))
+        return HomogeneousState(
+            tuple(scale * v for v in velocity), jnp.asarray(INITIAL_MAJORANT, options.dtype)
+        )
+
+    @staticmethod
+    def temperature_of(velocity: Velocity) -> Scalar:
+        """T = m⟨V²⟩/d."""
+        return mean(sum(v * v for v in velocity)) / len(velocity)
+
+    def raised(self, fastest: Scalar) -> Scalar:
+        """The majorant, raised if a pair was faster; it never falls."""
+        return jnp.where(fastest > self.majorant, RAISE * fastest, self.majorant)

@@ -1,0 +1,24 @@
+"""Shapes of the arrays that pass between modules, named once."""
+
+from typing import NamedTuple
+
+from jaxtyping import Array, Bool, Float, UInt32
+
+Scalar = Float[Array, ""]
+"""One physical number; always traced, never static."""
+
+Rows = Float[Array, "rows lanes"]
+"""One velocity component of all particles, laid out as rows of neighbours in memory."""
+
+Velocity = tuple[Rows, ...]
+"""Velocity components in units of v0, one array each (two or three)."""
+
+Accepted = Bool[Array, "*shape"]
+Word = UInt32[Array, "*shape"]
+
+
+class Key(NamedTuple):
+    """A random key: two 32-bit words (see `jdsmc.random`)."""
+
+    high: UInt32[Array, ""]
+    low: UInt32[Array, ""]
