@@ -38,6 +38,7 @@ DESCRIPTIONS = {
     "second_viscometric": ("Ψ2 = (P_zz-P_yy)/(nT a*²)", "1"),
     "relative_speed_cubed": ("⟨V12³⟩/⟨V12³⟩0 from random pairs", "1"),
     "relative_speed_cubed_collisional": ("⟨V12³⟩/⟨V12³⟩0 from the energy lost", "1"),
+    "time_step": ("mean time step over τ(T)", "1"),
     "a2": ("fourth cumulant", "1"),
     "a3": ("sixth cumulant", "1"),
     "speed_ratio": ("R_l, share of particles in a speed class over the Maxwellian one", "1"),
@@ -123,10 +124,10 @@ def _series(flat, shape, dims, coords, history: History) -> xr.Dataset:
     value, error = jackknife(means, observables, axis=1)
     pairs = {name: (value[name], error[name]) for name in value}
     data = _dataset(pairs, shape, (*dims, "sample"), coords, {"speed_ratio": ("speed_class",)})
-    data = data.assign_coords(
-        time=((*dims, "sample"), time.reshape(*shape, -1), _described("time"))
+    return data.assign_coords(
+        sample=np.arange(time.shape[1]),
+        time=((*dims, "sample"), time.reshape(*shape, -1), _described("time")),
     )
-    return data
 
 
 def _distribution(history, tracker, options, shape, dims, coords) -> xr.Dataset:

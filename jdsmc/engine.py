@@ -5,6 +5,7 @@ others, so the batch is cut into equal parts: one per device, or on a CPU one pe
 threads. Random numbers depend on point, realization and record alone, hence not on the cutting.
 """
 
+import itertools
 import os
 from concurrent.futures import ThreadPoolExecutor
 
@@ -115,7 +116,7 @@ def _cut(size: int) -> list[slice]:
     on_cpu = jax.default_backend() == "cpu"
     workers = _cores() if on_cpu else len(jax.devices())
     edges = np.linspace(0, size, min(workers, size) + 1).astype(int)
-    return [slice(int(a), int(b)) for a, b in zip(edges[:-1], edges[1:], strict=True)]
+    return [slice(int(a), int(b)) for a, b in itertools.pairwise(edges)]
 
 
 def _cores() -> int:

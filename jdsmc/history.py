@@ -8,8 +8,9 @@ from .observables import particle_means
 class History:
     """Everything measured so far, arrays (points, realizations, records, ...)."""
 
-    def __init__(self, n_particles: int):
+    def __init__(self, n_particles: int, steps_per_record: int):
         self.n_particles = n_particles
+        self.steps_per_record = steps_per_record
         self._records: list[dict[str, np.ndarray]] = []
         self._samples: list = []
         self._joined: dict[str, np.ndarray] = {}
@@ -77,7 +78,7 @@ class History:
             means[name] = np.sum(weights * values, axis=1) / scale
         for name in ("accepted", "energy_lost"):
             means[name] = np.sum(self[name][point, :, window], axis=1) / total
-        means["time_step"] = np.mean(elapsed, axis=1)
+        means["time_step"] = np.mean(elapsed, axis=1) / self.steps_per_record
         return means
 
     def samples(self, point: int, first: int, records_per_chunk: int) -> dict[str, np.ndarray]:

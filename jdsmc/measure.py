@@ -1,4 +1,4 @@
-"""Sums over the particles of a homogeneous gas, made on the device; ratios are taken on the host."""
+"""Sums over the particles of a homogeneous gas, on the device; ratios are taken on the host."""
 
 import equinox as eqx
 import jax.numpy as jnp

@@ -70,16 +70,17 @@ def rheology(means: dict, shear_rate) -> dict:
 
 
 def collisional(means: dict, restitution, rate_factor) -> dict:
-    """What only the collisions know: their rate, and ⟨V12³⟩ from the energy they lose.
+    """What the steps know: their length over τ(T), the rate of collisions, their ⟨V12³⟩.
 
-    ζ = (2/3T) loss per particle and time; over ζ0, eqs. (2.10) and (2.16), it is ⟨V12³⟩/⟨V12³⟩0.
-    Undefined (NaN) where no energy is lost.
+    ⟨V12³⟩ comes from the energy lost: ζ = (2/3T) loss per particle and time; divided by ζ0, it is
+    ⟨V12³⟩/⟨V12³⟩0, eqs. (2.10) and (2.16). Undefined (NaN) where no energy is lost.
     """
     local = rate_factor * np.sqrt(2.0 / np.pi) * means["T1"]
     inelastic = (1.0 - restitution**2) * np.sqrt(2.0) / np.sqrt(np.pi) * means["T3"]
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = np.where(means["energy_lost"] > 0, means["energy_lost"] / inelastic, np.nan)
     return {
+        "time_step": means["time_step"] * np.sqrt(2.0) * means["T1"],
         "collision_rate_ratio": means["accepted"] / local,
         "relative_speed_cubed_collisional": ratio,
     }

@@ -154,16 +154,17 @@ def join_gases(results: dict[str, Result]) -> Result:
     for group in ("/", "/series", "/distribution"):
         parts = [t[group].to_dataset() for t in trees if group == "/" or group[1:] in t.children]
         if len(parts) == len(trees):
-            gas = xr.Variable("gas", gases)
-            groups[group] = xr.concat(
-                parts,
-                dim="gas",
-                join="outer",
-                data_vars="all",
-                coords="minimal",
-                compat="override",
-                combine_attrs="drop_conflicts",
-            ).assign_coords(gas=gas)
+            groups[group] = _stack([part.reset_coords() for part in parts], gases)
+    if "/series" in groups:
+        groups["/series"] = groups["/series"].set_coords("time")
     stopped = {f"stopped_{name}": r.attrs["stopped"] for name, r in results.items()}
     groups["/"].attrs.update(stopped)
     return Result(xr.DataTree.from_dict(groups))
+
+
+def _stack(parts: list[xr.Dataset], gases: list[str]) -> xr.Dataset:
+    """Datasets side by side along `gas`; attributes that differ are left out."""
+    stacked = xr.concat(
+        parts, dim="gas", join="outer", data_vars="all", combine_attrs="drop_conflicts"
+    )
+    return stacked.assign_coords(gas=gases)

@@ -70,7 +70,7 @@ def run(
     limits = Limits(scene, duration, collisions, observable, rtol, budget)
     check.at_least("n_realizations", n_realizations, 4)
     check.at_least("seed", seed, 0)
-    flat, shape = grid.flatten(scene)
+    flat, _ = grid.flatten(scene)
     engine = Engine(flat, n_realizations, seed, options)
     session = Session(flat, options, engine, limits)
     attrs = {"seed": seed, "n_realizations": n_realizations, "rtol": rtol, "budget": budget}
@@ -142,7 +142,7 @@ class Session:
 
     def __init__(self, scene, options: Options, engine: Engine, limits: Limits):
         self.scene, self.options, self.engine, self.limits = scene, options, engine, limits
-        self.history = History(options.plan.rows * options.plan.lanes)
+        self.history = History(options.plan.rows * options.plan.lanes, options.steps)
         self.tracker = SteadyTracker(engine.shape[0])
         self.precision = np.inf
         self.failed = False
