@@ -5,29 +5,39 @@ import numpy as np
 
 
 def physical(value):
-    """Turn a number, list or array into a float64 NumPy array; leave JAX values (traced) alone."""
-    if isinstance(value, jax.Array):
-        return value
+    """Turn a number, list or array into a float64 NumPy array; leave JAX values (traced) alone.
+
+    What is no number is left alone too, for `in_range` to refuse with the name of the parameter.
+    """
+    numbers = None if isinstance(value, jax.Array) else _numbers(value)
+    return value if numbers is None else numbers
+
+
+def _numbers(value) -> np.ndarray | None:
+    """As a float64 array; None for text, truth values, ragged lists and other objects."""
     try:
-        return np.asarray(value, dtype=float)
-    except (TypeError, ValueError):
-        raise TypeError(f"expected a number or an array of numbers, got {value!r}") from None
+        array = np.asarray(value)
+    except ValueError:
+        return None
+    return array.astype(float) if array.dtype.kind in "iuf" else None
 
 
 def in_range(name, value, low, high, *, low_included=True, high_included=True):
-    """Raise ValueError unless every element of `value` is finite and within the interval.
+    """Raise unless `value` is a number, or an array of them, finite and within the interval.
 
     Traced values pass: they cannot be inspected, and were checked when they were concrete.
     """
     if isinstance(value, jax.core.Tracer):
         return
-    array = np.asarray(value, dtype=float)
+    interval = f"{'[' if low_included else '('}{low:g}, {high:g}{']' if high_included else ')'}"
+    array = _numbers(value)
+    if array is None:
+        raise TypeError(f"{name} = {value!r} is not a number in the allowed range {interval}.")
     above = array >= low if low_included else array > low
     below = array <= high if high_included else array < high
     good = np.isfinite(array) & above & below
     if not np.all(good):
         bad = np.atleast_1d(array)[~np.atleast_1d(good)][0]
-        interval = f"{'[' if low_included else '('}{low:g}, {high:g}{']' if high_included else ')'}"
         raise ValueError(f"{name} = {bad:g} is outside the allowed range {interval}.")
     if array.ndim > 1:
         raise ValueError(

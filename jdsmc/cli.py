@@ -5,16 +5,20 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+import jax
 import numpy as np
 import tyro
 
 from .faults import FaultError
-from .gas import ElasticHardSpheres, InelasticHardSpheres
+from .gas import RATE_FACTORS, ElasticHardSpheres, InelasticHardSpheres
 from .result import Result, check_writable, join_gases, load
 from .run import run
 from .scenarios import UniformShear
 
 GASES = ("ihs", "ehs", "ehs-measured")
+PICTURES = (".png", ".pdf", ".svg")
+MOST_STEPS = 100_000
+"""Longest range taken for meant."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,7 +100,7 @@ def plot(file: tyro.conf.Positional[Path], out: Path | None = None) -> None:
         out: picture to write (PNG, PDF or SVG); by default the name of the file with .png.
     """
     result = load(file)
-    _save_picture(result, check_writable(out or file.with_suffix(".png"), overwrite=True))
+    _save_picture(result, check_picture(out or file.with_suffix(".png")))
 
 
 COMMANDS = {"run shear": run_shear, "sweep shear": sweep_shear, "show": show, "plot": plot}
@@ -137,13 +141,16 @@ def _simulate(shear: Shear, sweep: bool) -> None:
     if shear.out is not None:
         check_writable(shear.out)
     if shear.plot is not None:
-        check_writable(shear.plot, overwrite=True)
+        check_picture(shear.plot)
     gases = shear.gas.split(",")
     restitution = numbers("restitution", shear.restitution)
     shear_rate = numbers("shear_rate", shear.shear_rate)
-    if not sweep and (len(gases) > 1 or restitution.ndim or shear_rate.ndim):
+    named = shear.rate_factor in RATE_FACTORS
+    factor = shear.rate_factor if named else numbers("rate_factor", shear.rate_factor)
+    several = [np.ndim(values) for values in (restitution, shear_rate, factor)]
+    if not sweep and (len(gases) > 1 or any(several)):
         raise ValueError("several values were given; use `jdsmc sweep` for ranges and lists.")
-    scenes = {name: UniformShear(_gas(name, restitution, shear), shear_rate) for name in gases}
+    scenes = {name: UniformShear(_gas(name, restitution, factor), shear_rate) for name in gases}
     results: dict[str, Result] = {}
     try:
         for name, scene in scenes.items():
@@ -161,6 +168,8 @@ def _simulate(shear: Shear, sweep: bool) -> None:
 
 
 def _run(scene: UniformShear, numerics: Numerics) -> Result:
+    if numerics.dtype == "float64":
+        jax.config.update("jax_enable_x64", True)
     return run(
         scene,
         n_particles=numerics.particles,
@@ -191,6 +200,13 @@ def _keep(results: dict[str, Result], shear: Shear, sweep: bool) -> None:
     print(result.table())
 
 
+def check_picture(path: Path) -> Path:
+    """The path, if a picture may be written there (an older one is replaced)."""
+    if path.suffix not in PICTURES:
+        raise ValueError(f"the name of a picture ends in {', '.join(PICTURES)}; got {path}.")
+    return check_writable(path, overwrite=True)
+
+
 def _save_picture(result: Result, path: Path) -> None:
     import matplotlib  # noqa: PLC0415 - slow to import
 
@@ -199,13 +215,11 @@ def _save_picture(result: Result, path: Path) -> None:
     print(f"Picture: {path}")
 
 
-def _gas(name: str, restitution, shear: Shear):
+def _gas(name: str, restitution, factor):
     if name not in GASES:
         raise ValueError(f"gas = {name!r} is unknown; choose from {', '.join(GASES)}.")
     if name == "ihs":
         return InelasticHardSpheres(restitution)
-    named = shear.rate_factor in ("linear", "viscosity")
-    factor = shear.rate_factor if named else numbers("rate_factor", shear.rate_factor)
     return ElasticHardSpheres(restitution, factor, "measured" if "measured" in name else "local")
 
 
@@ -218,16 +232,17 @@ def numbers(name: str, text: str) -> np.ndarray:
             f"{name} = {text!r} is not a number, a range first:last:step, or a list of these."
         ) from None
     values = np.concatenate(parts)
-    return values if len(values) > 1 or ":" in text else values[0]
+    return values if len(values) > 1 or ":" in text else values.reshape(())
 
 
 def _range(text: str) -> np.ndarray:
     if ":" not in text:
         return np.array([float(text)])
     first, last, step = (float(x) for x in text.split(":"))
-    count = round((last - first) / step)
-    if step == 0 or count < 0:
+    steps = (last - first) / step if step else np.nan
+    if not 0 <= steps < MOST_STEPS:
         raise ValueError
+    count = int(steps + 1e-6)  # the last value is met in spite of rounding, and never passed
     return np.round(first + step * np.arange(count + 1), 12)
 
 

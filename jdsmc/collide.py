@@ -9,7 +9,7 @@ from . import random
 from .gas import AbstractGas
 from .pairs import PairPlan, put_rows, take_rows, thinning
 from .scatter import elastic_outgoing
-from .types import Key, Scalar, Velocity
+from .types import Key, Scalar, TakenRows, Velocity
 
 
 class Collisions(eqx.Module):
@@ -75,7 +75,7 @@ def collide(
     return put_rows(velocity, taken, left, right, fresh), tally
 
 
-def _wave(key: Key, gas: AbstractGas, left: Velocity, right: Velocity, bound: Scalar):
+def _wave(key: Key, gas: AbstractGas, left: TakenRows, right: TakenRows, bound: Scalar):
     """Disjoint pairs, each accepted with probability rate/bound.
 
     The barriers keep XLA from computing the random numbers and the transfer again for each

@@ -36,7 +36,7 @@ def _advance(scene, keys, states, first_record, options: Options):
         def one_record(state, count):
             return scene.advance(random.fold_in(key, first_record + count), state, options)
 
-        state, records = lax.scan(one_record, state, jnp.arange(options.records))
+        state, records = lax.scan(one_record, state, jnp.arange(options.records, dtype=jnp.uint32))
         state, sample = scene.finish_chunk(state)
         return state, (records, sample)
 

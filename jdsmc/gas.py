@@ -3,6 +3,7 @@
 Units: m = 1, λ0 = 1, v0 = √(2 T0/m) = 1, hence τ0 = 1 and T0 = 1/2, at the mean density.
 """
 
+import math
 from abc import abstractmethod
 from typing import Literal
 
@@ -14,11 +15,6 @@ from . import check
 
 INITIAL_TEMPERATURE = 0.5
 """T0 in units of m v0²: with v0 = √(2 T0/m) = 1."""
-
-
-def local_cooling_rate(restitution, temperature):
-    """ζ0 = 2(1-α²)/(3√π τ), τ = 1/√(2T): eq. (2.16) of Astillero and Santos (2005)."""
-    return (2.0 / (3.0 * np.sqrt(np.pi))) * (1.0 - restitution**2) * jnp.sqrt(2.0 * temperature)
 
 
 class AbstractGas(eqx.Module):
@@ -127,4 +123,5 @@ class ElasticHardSpheres(AbstractGas):
         return tuple(0.5 * (g - e) for g, e in zip(relative_velocity, outgoing, strict=True))
 
     def drag_coefficient(self):
-        return (2.0 / (3.0 * np.sqrt(np.pi))) * (1.0 - self.restitution**2)
+        """ζ0 = 2(1-α²)/(3√π τ) with τ = 1/√(2T): eq. (2.16)."""
+        return (2.0 / (3.0 * math.sqrt(math.pi))) * (1.0 - self.restitution**2)

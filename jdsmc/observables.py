@@ -5,15 +5,17 @@ divided by the average of T^{k/2}, so that slow common fluctuations of the tempe
 Definitions: Astillero and Santos (2005), sections III and V; names: docs/observables.md.
 """
 
+import math
+
 import numpy as np
 from scipy.special import erf
 
 from .gas import INITIAL_TEMPERATURE
 
-MAXWELL_CUBED = 32.0 / np.sqrt(np.pi)
+MAXWELL_CUBED = 32.0 / math.sqrt(math.pi)
 """⟨V12³⟩0 / (T/m)^{3/2}, eq. (2.15)."""
 
-VISCOSITY_TIME = 1.016 * 5.0 * np.sqrt(np.pi) / 8.0
+VISCOSITY_TIME = 1.016 * 5.0 * math.sqrt(math.pi) / 8.0
 """τ_η/τ, eq. (2.18)."""
 
 

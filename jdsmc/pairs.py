@@ -18,7 +18,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from . import random
-from .types import Key, Rows, Scalar, Velocity
+from .types import Key, Rows, Scalar, TakenRows, Velocity
 
 LARGEST_HITS = 0.5
 """Candidate hits per particle and step, κ: the second-order rates are off by (ν dt)²/6 at most."""
@@ -95,7 +95,7 @@ def take_rows(key: Key, plan: PairPlan, velocity: Velocity):
     return taken, left, right, fresh
 
 
-def put_rows(velocity: Velocity, taken, left: Velocity, right: Velocity, fresh: Velocity):
+def put_rows(velocity: Velocity, taken, left: TakenRows, right: TakenRows, fresh: TakenRows):
     """Write rows back where they were taken from."""
     return tuple(
         v.at[taken].set(jnp.concatenate(rows), unique_indices=True, mode="promise_in_bounds")

@@ -157,8 +157,11 @@ def join_gases(results: dict[str, Result]) -> Result:
             groups[group] = _stack([part.reset_coords() for part in parts], gases)
     if "/series" in groups:
         groups["/series"] = groups["/series"].set_coords("time")
-    stopped = {f"stopped_{name}": r.attrs["stopped"] for name, r in results.items()}
-    groups["/"].attrs.update(stopped)
+    for name in ("stopped", "gas_model"):
+        each = {gas: r.attrs[name] for gas, r in results.items()}
+        same = len(set(each.values())) == 1
+        text = each[gases[0]] if same else "; ".join(f"{gas}: {v}" for gas, v in each.items())
+        groups["/"].attrs |= {name: text} | {f"{name}_{gas}": v for gas, v in each.items()}
     return Result(xr.DataTree.from_dict(groups))
 
 

@@ -40,7 +40,7 @@ def drift_significance(early: np.ndarray, late: np.ndarray, axis: int = -1) -> n
     spread = np.std(difference, axis=axis, ddof=1) / np.sqrt(count)
     with np.errstate(divide="ignore", invalid="ignore"):
         score = np.abs(np.mean(difference, axis=axis)) / spread
-    return 2.0 * student.sf(np.where(spread > 0, score, 0.0), count - 1)
+    return np.asarray(2.0 * student.sf(np.where(spread > 0, score, 0.0), count - 1))
 
 
 def linear_trend(times: np.ndarray, values: np.ndarray) -> np.ndarray:

@@ -13,8 +13,11 @@ Rows = Float[Array, "rows lanes"]
 Velocity = tuple[Rows, ...]
 """Velocity components in units of v0, one array each (two or three)."""
 
+TakenRows = tuple[Float[Array, "_ lanes"], ...]
+"""Velocity components of some of the rows."""
+
 Accepted = Bool[Array, "*shape"]
-Word = UInt32[Array, "*shape"]
+Word = UInt32[Array, "..."]
 
 
 class Key(NamedTuple):

@@ -117,7 +117,7 @@ class UniformShear(eqx.Module):
 
         velocity, tallies = lax.scan(one_step, velocity, jnp.arange(options.steps))
         tally = Collisions.over(tallies)
-        state = HomogeneousState(velocity, state.raised(tally.fastest / thermal))
+        state = HomogeneousState(velocity, state.next_majorant(tally.fastest / thermal))
         return state, Record(sampled, tally, options.steps * duration)
 
     def finish_chunk(self, state: HomogeneousState) -> tuple[HomogeneousState, Distributions]:

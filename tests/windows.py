@@ -1,0 +1,37 @@
+"""Averages of each realization over a window: what exact balances are tested with."""
+
+import numpy as np
+
+from jdsmc import grid
+from jdsmc.engine import Engine
+from jdsmc.history import History
+from jdsmc.options import Options
+
+
+def window(scene, chunks, skip, **options):
+    """Averages (realizations, ...) of one scene over its chunks from `skip` on."""
+    history, records = simulate(scene, chunks, **options)
+    return history.point(0, skip * records, history.length)
+
+
+def simulate(scene, chunks, *, n_particles=4000, n_realizations=16, seed=1, **options):
+    """The history of one scene, and the records of a chunk."""
+    chosen = dict(time_step=0.1, splitting="strang", dtype="float32", steps=8, records=8) | options
+    options = Options.checked(n_particles, **chosen)
+    flat, _ = grid.flatten(scene)
+    engine = Engine(flat, n_realizations, seed, options)
+    history = History(n_particles, options.steps)
+    for _ in range(chunks):
+        history.append(*engine.advance())
+    return history, options.records
+
+
+def within(difference, sigmas=4.5):
+    """The mean over realizations is zero within that many of its standard errors."""
+    error = np.std(difference, ddof=1) / np.sqrt(len(difference))
+    return abs(np.mean(difference)) < sigmas * error
+
+
+def relative_error(values):
+    """Standard error of the mean over realizations, relative to the mean."""
+    return np.std(values, ddof=1) / np.sqrt(len(values)) / abs(np.mean(values))
