@@ -86,7 +86,8 @@ def steady_estimates(scene, history: History, point: int, edges) -> tuple[dict, 
     one = grid.take(scene, point)
 
     def observables(averages):
-        restitution, factor = one.gas.restitution, float(one.gas.local_collision_factor())
+        restitution = getattr(one.gas, "restitution", 1.0)
+        factor = float(one.gas.local_collision_factor())
         return {
             **one.observables(averages),
             **collisional(averages, restitution, factor),

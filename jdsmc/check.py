@@ -1,6 +1,7 @@
 """Checks of user input on the host: one clear sentence naming the parameter and its range."""
 
 import jax
+import jax.core
 import numpy as np
 
 

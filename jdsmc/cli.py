@@ -219,7 +219,7 @@ def _gas(name: str, restitution, factor):
     if name not in GASES:
         raise ValueError(f"gas = {name!r} is unknown; choose from {', '.join(GASES)}.")
     if name == "ihs":
-        return InelasticHardSpheres(restitution)
+        return InelasticHardSpheres(restitution=restitution)
     return ElasticHardSpheres(restitution, factor, "measured" if "measured" in name else "local")
 
 

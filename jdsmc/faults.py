@@ -1,5 +1,7 @@
 """Faults counted in the steps, raised on the host with what to change."""
 
+from typing import Any
+
 import numpy as np
 
 TOLERATED = 1e-4
@@ -9,7 +11,7 @@ TOLERATED = 1e-4
 class FaultError(RuntimeError):
     """A run that cannot be trusted. `result` holds what was measured before, if anything."""
 
-    result = None
+    result: Any = None
 
 
 class NotSteadyError(FaultError):

@@ -5,13 +5,14 @@ Units: m = 1, λ0 = 1, v0 = √(2 T0/m) = 1, hence τ0 = 1 and T0 = 1/2, at the 
 
 import math
 from abc import abstractmethod
-from typing import Literal
+from typing import Any, Literal
 
 import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 
 from . import check
+from .types import Physical
 
 INITIAL_TEMPERATURE = 0.5
 """T0 in units of m v0²: with v0 = √(2 T0/m) = 1."""
@@ -27,22 +28,30 @@ class AbstractGas(eqx.Module):
     """
 
     frictional: eqx.AbstractClassVar[bool]
-    measured_drag: eqx.AbstractVar[bool]
+
+    @property
+    @abstractmethod
+    def measured_drag(self) -> bool:
+        """True if the drag is scaled with the measured relative speeds."""
 
     @abstractmethod
-    def rate(self, speed):
+    def is_dissipative(self) -> bool:
+        """True if the gas cools at every point of a sweep (asked on the host)."""
+
+    @abstractmethod
+    def rate(self, speed) -> Any:
         """Collision rate of a pair, in units of the hard-sphere rate per unit relative speed."""
 
     @abstractmethod
-    def momentum_transfer(self, relative_velocity, outgoing):
+    def momentum_transfer(self, relative_velocity, outgoing) -> Any:
         """Momentum given by the first to the second particle, component by component."""
 
     @abstractmethod
-    def drag_coefficient(self):
+    def drag_coefficient(self) -> Any:
         """c in ζ = c √(2T): twice the friction constant γ over √(2T)."""
 
     @abstractmethod
-    def local_collision_factor(self):
+    def local_collision_factor(self) -> Any:
         """Local-equilibrium collision frequency over that of hard spheres of diameter σ."""
 
 
@@ -53,12 +62,18 @@ class InelasticHardSpheres(AbstractGas):
     Raises ValueError outside that range. Collision rule: eq. (2.8) of Astillero and Santos.
     """
 
-    restitution: np.ndarray = eqx.field(converter=check.physical)
+    restitution: Physical = eqx.field(converter=check.physical)
     frictional = False
-    measured_drag = False
 
     def __check_init__(self):
         check.in_range("restitution", self.restitution, 0.0, 1.0, low_included=False)
+
+    @property
+    def measured_drag(self) -> bool:
+        return False
+
+    def is_dissipative(self) -> bool:
+        return bool(np.all(self.restitution < 1))
 
     def rate(self, speed):
         return speed
@@ -92,8 +107,8 @@ class ElasticHardSpheres(AbstractGas):
     Raises ValueError for values outside these. Source: Astillero and Santos, eqs. (2.20), (2.21).
     """
 
-    restitution: np.ndarray = eqx.field(converter=check.physical)
-    rate_factor: str | np.ndarray = eqx.field(
+    restitution: Physical = eqx.field(converter=check.physical)
+    rate_factor: Physical = eqx.field(
         default="linear", converter=lambda b: b if isinstance(b, str) else check.physical(b)
     )
     drag: Literal["local", "measured"] = eqx.field(default="local", static=True)
@@ -108,8 +123,11 @@ class ElasticHardSpheres(AbstractGas):
             check.in_range("rate_factor", self.rate_factor, 0.0, 2.0, low_included=False)
 
     @property
-    def measured_drag(self):  # pyright: ignore[reportIncompatibleVariableOverride]
+    def measured_drag(self) -> bool:
         return self.drag == "measured"
+
+    def is_dissipative(self) -> bool:
+        return bool(np.all(self.restitution < 1))
 
     def local_collision_factor(self):
         if isinstance(self.rate_factor, str):

@@ -61,7 +61,9 @@ class History:
         """Number of records."""
         return self["elapsed"].shape[2]
 
-    def point(self, point: int, first: int, last: int) -> dict[str, np.ndarray]:
+    def point(
+        self, point: int, first: int | np.integer, last: int | np.integer
+    ) -> dict[str, np.ndarray]:
         """Averages over a window of records of one point: arrays (realizations, ...).
 
         Averages over particles are weighted with the time their record stands for; `accepted` and
@@ -81,7 +83,9 @@ class History:
         means["time_step"] = np.mean(elapsed, axis=1) / self.steps_per_record
         return means
 
-    def samples(self, point: int, first: int, records_per_chunk: int) -> dict[str, np.ndarray]:
+    def samples(
+        self, point: int, first: int | np.integer, records_per_chunk: int
+    ) -> dict[str, np.ndarray]:
         """Chunk samples of one point taken after record `first`: means (realizations, bins)."""
         kept = self._samples[-(-first // records_per_chunk) :]
         if not kept:

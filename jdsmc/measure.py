@@ -73,7 +73,9 @@ def random_pair_cubed(key: Key, velocity: Velocity) -> Scalar:
     words = random.bits(key, (2,))[0]
     row_shift = 1 + words[0] % jnp.uint32(rows - 1)
     lane_shift = words[1] % jnp.uint32(lanes)
-    squared = sum((v - jnp.roll(v, (row_shift, lane_shift), axis=(0, 1))) ** 2 for v in velocity)
+    squared = sum(
+        (v - jnp.roll(v, jnp.stack([row_shift, lane_shift]), axis=(0, 1))) ** 2 for v in velocity
+    )
     return mean(squared * jnp.sqrt(squared))
 
 

@@ -14,8 +14,9 @@ class Estimate(NamedTuple):
     error: float | np.ndarray
 
     def __str__(self) -> str:
-        if np.ndim(self.value):
-            return "\n".join(str(Estimate(v, e)) for v, e in zip(self.value, self.error))  # noqa: B905
+        if isinstance(self.value, np.ndarray):
+            rows = zip(self.value, np.asarray(self.error), strict=True)
+            return "\n".join(str(Estimate(v, e)) for v, e in rows)
         return format_estimate(float(self.value), float(self.error))
 
 

@@ -59,7 +59,7 @@ class SteadyTracker:
 
     def confirm(self, history: History, point: int) -> bool:
         """True if the measurement shows no drift; otherwise its first quarter is dropped."""
-        first, last = self.start[point], history.length
+        first, last = int(self.start[point]), history.length
         quarter = first + (last - first) // 4
         if quarter - first < 2:
             return False
@@ -74,7 +74,7 @@ class SteadyTracker:
         return bool(np.all(self.start >= 0))
 
 
-def least_significance(history: History, point: int, first: int, middle: int, last: int) -> float:
+def least_significance(history: History, point: int, first, middle, last) -> float:
     """Smallest significance of a drift of the monitored moments between two windows."""
     early, late = history.point(point, first, middle), history.point(point, middle, last)
     return min(float(drift_significance(early[n], late[n])) for n in MONITORED)

@@ -1,8 +1,11 @@
 """Shapes of the arrays that pass between modules, named once."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from jaxtyping import Array, Bool, Float, UInt32
+
+Physical = Any
+"""A physical number of a gas or scene: a float64 array on the host, traced in a step."""
 
 Scalar = Float[Array, ""]
 """One physical number; always traced, never static."""

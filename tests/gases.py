@@ -18,8 +18,14 @@ class MaxwellMolecules(AbstractGas):
     """
 
     frictional = False
-    measured_drag = False
     speed: np.ndarray
+
+    @property
+    def measured_drag(self):
+        return False
+
+    def is_dissipative(self):
+        return False
 
     def rate(self, speed):
         return self.speed * jnp.ones_like(speed)

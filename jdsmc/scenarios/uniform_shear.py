@@ -27,7 +27,7 @@ from ..observables import MAXWELL_CUBED, isotropic, rheology
 from ..options import Options
 from ..pairs import remix
 from ..state import HomogeneousState
-from ..types import Key, Scalar, Velocity
+from ..types import Key, Physical, Scalar, Velocity
 
 
 class UniformShear(eqx.Module):
@@ -46,7 +46,7 @@ class UniformShear(eqx.Module):
     )
 
     gas: AbstractGas
-    shear_rate: np.ndarray = eqx.field(converter=check.physical)
+    shear_rate: Physical = eqx.field(converter=check.physical)
 
     def __check_init__(self):
         if not isinstance(self.gas, AbstractGas):
@@ -55,7 +55,7 @@ class UniformShear(eqx.Module):
 
     def has_steady_state(self) -> bool:
         """True if heating and cooling can balance at every point: a > 0 and α < 1."""
-        return bool(np.all(self.shear_rate > 0) and np.all(self.gas.restitution < 1))
+        return bool(np.all(self.shear_rate > 0) and self.gas.is_dissipative())
 
     def initial(self, key: Key, options: Options) -> HomogeneousState:
         """Maxwellian velocities with mean exactly zero and temperature exactly T0."""
