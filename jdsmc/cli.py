@@ -134,6 +134,9 @@ def main(arguments: list[str] | None = None) -> int:
     except (ValueError, TypeError, OSError) as error:
         print(f"jdsmc: {error}", file=sys.stderr)
         return 2
+    except KeyboardInterrupt:  # a second Ctrl-C, or one outside a run
+        print("jdsmc: interrupted.", file=sys.stderr)
+        return 130
     return 0
 
 
@@ -219,7 +222,7 @@ def _gas(name: str, restitution, factor):
     if name not in GASES:
         raise ValueError(f"gas = {name!r} is unknown; choose from {', '.join(GASES)}.")
     if name == "ihs":
-        return InelasticHardSpheres(restitution=restitution)
+        return InelasticHardSpheres(restitution)
     return ElasticHardSpheres(restitution, factor, "measured" if "measured" in name else "local")
 
 

@@ -5,7 +5,7 @@ Units: m = 1, λ0 = 1, v0 = √(2 T0/m) = 1, hence τ0 = 1 and T0 = 1/2, at the 
 
 import math
 from abc import abstractmethod
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -63,7 +63,7 @@ class InelasticHardSpheres(AbstractGas):
     """
 
     restitution: Physical = eqx.field(converter=check.physical)
-    frictional = False
+    frictional: ClassVar[bool] = False
 
     def __check_init__(self):
         check.in_range("restitution", self.restitution, 0.0, 1.0, low_included=False)
@@ -112,7 +112,7 @@ class ElasticHardSpheres(AbstractGas):
         default="linear", converter=lambda b: b if isinstance(b, str) else check.physical(b)
     )
     drag: Literal["local", "measured"] = eqx.field(default="local", static=True)
-    frictional = True
+    frictional: ClassVar[bool] = True
 
     def __check_init__(self):
         check.in_range("restitution", self.restitution, 0.0, 1.0, low_included=False)

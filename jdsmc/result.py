@@ -26,7 +26,7 @@ def format_estimate(value: float, error: float) -> str:
         return f"{value:.6g}"
     digits = max(0, 1 - int(np.floor(np.log10(error))))
     shown = round(error * 10**digits)
-    if shown >= 100:  # 0.0999 rounds up to 0.100: one digit fewer
+    if digits and shown >= 100:  # 0.0999 rounds up to 0.100: one digit fewer
         digits, shown = digits - 1, round(error * 10 ** (digits - 1))
     return f"{value:.{digits}f}({shown})" if digits else f"{value:.0f}({error:.0f})"
 
