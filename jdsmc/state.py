@@ -11,10 +11,11 @@ from .types import Key, Scalar, Velocity
 INITIAL_MAJORANT = 6.0
 """First bound on relative speeds over v0(T): a Maxwellian exceeds it once in 6e7 pairs."""
 
-RAISE, FALL = 1.05, 0.995
-"""A pair faster than the majorant raises it to 1.05 times its speed; each record lowers it by 0.5%.
+RAISE, RELAX = 1.05, 0.02
+"""A pair faster than the majorant raises it to 1.05 times its speed; else it moves 2% of the way to
+the fastest pair of the record.
 
-Without the fall one rare pair of the exponential tail of a sheared gas would slow the rest of the
+If it never fell, one rare pair of the exponential tail of a sheared gas would slow the rest of the
 run (after 3e4 steps by half). The bound is then exceeded every ten records or so, by a percent of
 one collision in 1e4: a share of 1e-6, counted as `Collisions.excess`; the limit is 1e-4.
 """
@@ -45,4 +46,5 @@ class HomogeneousState(eqx.Module):
 
     def next_majorant(self, fastest: Scalar) -> Scalar:
         """The majorant of the next record: raised if a pair was faster, else a little lower."""
-        return jnp.where(fastest > self.majorant, RAISE * fastest, FALL * self.majorant)
+        relaxed = self.majorant + RELAX * (fastest - self.majorant)
+        return jnp.where(fastest > self.majorant, RAISE * fastest, relaxed)

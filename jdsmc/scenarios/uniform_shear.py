@@ -21,7 +21,7 @@ from ..measure import (
     centred,
     distributions,
     moments,
-    random_pair_cubed,
+    pair_cubed,
 )
 from ..observables import MAXWELL_CUBED, isotropic, rheology
 from ..options import Options
@@ -82,29 +82,27 @@ class UniformShear(eqx.Module):
         options: Options,
     ) -> tuple[Velocity, Collisions]:
         """One time step: half a flow, collisions, half a flow ("strang"), or as in the paper."""
-        drag_ratio = self.drag_ratio(random.fold_in(key, 1), velocity)
+        drag_ratio = self.drag_ratio(velocity)
         before, after = (0.5, 0.5) if options.splitting == "strang" else (1.0, 0.0)
         velocity = self.flow(velocity, before * duration, drag_ratio)
-        velocity, tally = collide(
-            random.fold_in(key, 0), self.gas, options.plan, velocity, majorant, duration
-        )
+        velocity, tally = collide(key, self.gas, options.plan, velocity, majorant, duration)
         if after:
             velocity = self.flow(velocity, after * duration, drag_ratio)
         return velocity, tally
 
-    def drag_ratio(self, key: Key, velocity: Velocity) -> Scalar:
+    def drag_ratio(self, velocity: Velocity) -> Scalar:
         """Factor of the drag: 1, or ⟨V12³⟩/⟨V12³⟩0 of the present velocities if asked."""
         if not self.gas.measured_drag:
             return jnp.ones((), velocity[0].dtype)
         temperature = HomogeneousState.temperature_of(velocity)
-        return random_pair_cubed(key, velocity) / (MAXWELL_CUBED * temperature**1.5)
+        return pair_cubed(velocity) / (MAXWELL_CUBED * temperature**1.5)
 
     def advance(
         self, key: Key, state: HomogeneousState, options: Options
     ) -> tuple[HomogeneousState, Record]:
         """One record: measure, choose the time step, then make `options.steps` of them."""
         velocity = centred(state.velocity)
-        sampled = moments(random.fold_in(key, 0), velocity)
+        sampled = moments(velocity)
         temperature = lax.stop_gradient(sampled.temperature())
         thermal = jnp.sqrt(2.0 * temperature)
         majorant = state.majorant * thermal
@@ -112,7 +110,7 @@ class UniformShear(eqx.Module):
         duration = jnp.minimum(lax.stop_gradient(self.time_step(temperature, options)), longest)
 
         def one_step(velocity, count):
-            step_key = random.fold_in(key, count + 1)
+            step_key = random.fold_in(key, count)
             return self.step(step_key, velocity, majorant, duration, options)
 
         velocity, tallies = lax.scan(one_step, velocity, jnp.arange(options.steps))
