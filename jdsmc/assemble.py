@@ -42,6 +42,9 @@ DESCRIPTIONS = {
     "a2": ("fourth cumulant", "1"),
     "a3": ("sixth cumulant", "1"),
     "speed_ratio": ("R_l, share of particles in a speed class over the Maxwellian one", "1"),
+    "conductivity_ratio": ("modified thermal conductivity κ'/κ0", "1"),
+    "sonine": ("Sonine coefficients b'_k, eq. (3.10)", "1"),
+    "sonine_marginal": ("Sonine coefficients b'_k, eq. (3.12)", "1"),
     "marginal_x": ("g_x^(+)(C_x)", "1"),
     "marginal_y": ("g_y^(+)(C_y)", "1"),
     "speed": ("F(C)", "1"),
@@ -61,14 +64,15 @@ def assemble(scene, options: Options, history: History, tracker, attrs: dict) ->
     if tracker is not None and history.length and tracker.all_measuring:
         steady = _steady(flat, history, tracker)
         if steady is not None:
-            root = _dataset(steady, shape, dims, coords, {"speed_ratio": ("speed_class",)})
-            root["speed_class"] = np.arange(4)
+            root = _dataset(steady, shape, dims, coords)
             root["steady_from_time"] = dims, _at_start(history, "time", tracker).reshape(shape)
             root["steady_from_collisions"] = (
                 dims,
                 _at_start(history, "collisions", tracker).reshape(shape),
             )
-            groups["/distribution"] = _distribution(history, tracker, options, shape, dims, coords)
+            groups["/distribution"] = _distribution(
+                scene.densities, history, tracker, options, (shape, dims, coords)
+            )
     root.attrs = provenance(scene, options) | attrs
     groups["/"] = root
     return Result(xr.DataTree.from_dict(groups))
@@ -118,28 +122,28 @@ def _series(flat, shape, dims, coords, history: History) -> xr.Dataset:
             ratio = averages["collisions"] / (factor * averages["local_collisions"])
         return {
             **column.observables(averages),
+            **column.evolution(averages),
             "collisions": averages["collisions"],
             "collision_ratio": ratio,
         }
 
     value, error = jackknife(means, observables, axis=1)
     pairs = {name: (value[name], error[name]) for name in value}
-    data = _dataset(pairs, shape, (*dims, "sample"), coords, {"speed_ratio": ("speed_class",)})
+    data = _dataset(pairs, shape, (*dims, "sample"), coords)
     return data.assign_coords(
         sample=np.arange(time.shape[1]),
         time=((*dims, "sample"), time.reshape(*shape, -1), _described("time")),
     )
 
 
-def _distribution(history, tracker, options, shape, dims, coords) -> xr.Dataset:
+def _distribution(densities, history, tracker, options, labels) -> xr.Dataset:
+    """Probability densities from the sampled fractions; `densities` are their norms."""
+    shape, dims, coords = labels
     pairs = {}
-    for name, axis, density in (
-        ("marginal_x", "velocity", 0.5 / BIN_WIDTH),
-        ("marginal_y", "velocity", 0.5 / BIN_WIDTH),
-        ("speed", "speed_bin", 1.0 / BIN_WIDTH),
-    ):
+    for name, norm in densities.items():
+        axis = "speed_bin" if name == "speed" else "velocity"
         means = [
-            density * history.samples(p, first, options.records)[name]
+            norm / BIN_WIDTH * history.samples(p, first, options.records)[name]
             for p, first in enumerate(tracker.start)
         ]
         value = np.array([np.mean(m, axis=0) for m in means])
@@ -153,23 +157,32 @@ def _distribution(history, tracker, options, shape, dims, coords) -> xr.Dataset:
                 array.reshape(*shape, -1),
                 _described(name + suffix),
             )
+    centres = {"velocity": bin_centres(True), "speed_bin": bin_centres(False)}
     return data.assign_coords(
-        velocity=("velocity", bin_centres(True)), speed_bin=("speed_bin", bin_centres(False))
+        {axis: values for axis, values in centres.items() if axis in data.dims}
     )
 
 
-def _dataset(pairs, shape, dims, coords, extra) -> xr.Dataset:
+EXTRA_DIMENSIONS = {
+    "speed_ratio": ("speed_class",),
+    "sonine": ("sonine_order",),
+    "sonine_marginal": ("sonine_order",),
+}
+EXTRA_COORDINATES = {"speed_class": np.arange(4), "sonine_order": np.arange(1, 4)}
+
+
+def _dataset(pairs, shape, dims, coords) -> xr.Dataset:
     """Variables `name` and `name_error` from arrays whose first axis is the sweep point."""
     data = xr.Dataset(coords=coords)
     for name, arrays in pairs.items():
         for suffix, array in zip(("", "_error"), arrays, strict=True):
             full = array.reshape(shape + array.shape[1:])
             data[name + suffix] = (
-                (*dims, *extra.get(name, ())),
+                (*dims, *EXTRA_DIMENSIONS.get(name, ())),
                 full,
                 _described(name + suffix),
             )
-    return data
+    return data.assign_coords({d: c for d, c in EXTRA_COORDINATES.items() if d in data.dims})
 
 
 def _described(name: str) -> dict:

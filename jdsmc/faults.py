@@ -2,6 +2,7 @@
 
 from typing import Any
 
+import jax
 import numpy as np
 
 TOLERATED = 1e-4
@@ -18,12 +19,16 @@ class NotSteadyError(FaultError):
     """No steady state was found within the budget."""
 
 
-def check(history, record) -> None:
+def check(scene, history, record) -> None:
     """Raise FaultError if the latest records lost collisions or hold numbers that are not finite.
 
-    Arguments: the history so far (for the total of collisions) and the latest records.
+    Arguments: the scene (for faults of its own), the history so far (for the total of collisions)
+    and the latest records.
     """
-    values = (record.moments.xx, record.moments.sixth, record.elapsed)
+    own = scene.faults(record)
+    if own:
+        raise FaultError(own)
+    values = (*jax.tree.leaves(record.moments), record.elapsed)
     if not all(np.all(np.isfinite(v)) for v in values):
         raise FaultError(
             f"Velocities became infinite or NaN after {history.mean_collisions().max():.1f} "
@@ -37,7 +42,7 @@ def check(history, record) -> None:
             f"{overflow:.0f} candidate pairs had no slot ({accepted:.0f} collisions were made); "
             "reduce time_step."
         )
-    total = np.sum(history["accepted"]) * history.n_particles
+    total = history.total_accepted
     excess = history.total_excess
     if excess > TOLERATED * total and total > 1e4:
         raise FaultError(

@@ -8,58 +8,59 @@ from .observables import particle_means
 class History:
     """Everything measured so far, arrays (points, realizations, records, ...)."""
 
-    def __init__(self, n_particles: int, steps_per_record: int):
+    def __init__(self, n_particles: int, steps_per_record: int, averages=particle_means):
         self.n_particles = n_particles
         self.steps_per_record = steps_per_record
-        self._records: list[dict[str, np.ndarray]] = []
-        self._samples: list = []
-        self._joined: dict[str, np.ndarray] = {}
         self.total_excess = 0.0
+        self.length = 0  # records so far
+        self._averages = averages
+        self._samples: list = []
+        self._columns: dict[str, np.ndarray] = {}
+        self._totals: dict[str, np.ndarray] = {}
 
     def append(self, record, sample) -> None:
         """Add the records and the sample of one chunk."""
         tally = record.tally
-        self._records.append(
-            {
-                **particle_means(record),
-                "elapsed": record.elapsed,
-                "accepted": tally.accepted / self.n_particles,
-                "energy_lost": tally.energy_lost / self.n_particles,
-            }
-        )
+        new = {
+            **self._averages(record),
+            "elapsed": record.elapsed,
+            "accepted": tally.accepted / self.n_particles,
+            "energy_lost": tally.energy_lost / self.n_particles,
+        }
+        plain = new["elapsed"] / new.get("scale", 1.0)
+        new["time"] = self._continued("time", plain)
+        new["collisions"] = self._continued("collisions", new["accepted"])
+        for name, values in new.items():
+            self._store(name, values)
+        self.length += record.elapsed.shape[2]
         self._samples.append(sample)
         self.total_excess += float(np.sum(tally.excess))
-        self._joined = {}
 
-    def _all(self) -> dict[str, np.ndarray]:
-        if not self._joined:
-            names = self._records[0]
-            self._joined = {
-                name: np.concatenate([r[name] for r in self._records], axis=2) for name in names
-            }
-            for name, rate in (("time", "elapsed"), ("collisions", "accepted")):
-                total = np.cumsum(self._joined[rate], axis=2)
-                self._joined[name] = total - self._joined[rate]
-        return self._joined
+    def _continued(self, name: str, increments: np.ndarray) -> np.ndarray:
+        """Running total before each record; the total so far is kept from chunk to chunk."""
+        start = self._totals.get(name, np.zeros(increments.shape[:2]))
+        total = start[..., None] + np.cumsum(increments, axis=2)
+        self._totals[name] = total[..., -1]
+        return total - increments
+
+    def _store(self, name: str, values: np.ndarray) -> None:
+        """Write into a column whose capacity doubles, so that long runs cost in proportion."""
+        first, last = self.length, self.length + values.shape[2]
+        column = self._columns.get(name, np.empty((*values.shape[:2], 0, *values.shape[3:])))
+        if last > column.shape[2]:
+            room = np.empty((*values.shape[:2], 2 * last, *values.shape[3:]))
+            room[:, :, :first] = column[:, :, :first]
+            self._columns[name] = column = room
+        column[:, :, first:last] = values
 
     def __getitem__(self, name: str) -> np.ndarray:
-        return self._all()[name]
+        return self._columns[name][:, :, : self.length]
 
     @property
     def names(self) -> list[str]:
         """Names of the averages over particles."""
         skip = ("elapsed", "accepted", "energy_lost", "time", "collisions")
-        return [name for name in self._all() if name not in skip]
-
-    @property
-    def length_or_zero(self) -> int:
-        """Number of records, also before the first."""
-        return self.length if self._records else 0
-
-    @property
-    def length(self) -> int:
-        """Number of records."""
-        return self["elapsed"].shape[2]
+        return [name for name in self._columns if name not in skip]
 
     def point(
         self, point: int, first: int | np.integer, last: int | np.integer
@@ -95,11 +96,16 @@ class History:
 
     def mean_collisions(self) -> np.ndarray:
         """Accepted collisions per particle so far, (points,)."""
-        return np.mean(np.sum(self["accepted"], axis=2), axis=1)
+        return np.mean(self._totals["collisions"], axis=1)
+
+    @property
+    def total_accepted(self) -> float:
+        """Accepted collisions of all gases together."""
+        return float(np.sum(self._totals["collisions"])) * self.n_particles
 
     def mean_time(self) -> np.ndarray:
         """Time so far (τ0), (points,)."""
-        return np.mean(np.sum(self["elapsed"], axis=2), axis=1)
+        return np.mean(self._totals["time"], axis=1)
 
     def record_at_collisions(self, point: int, collisions: float) -> int:
         """First record at which a point has made that many collisions per particle."""
@@ -114,7 +120,8 @@ class History:
         """
         time = self["time"]
         common = np.mean(time, axis=1)
-        thermal = np.sqrt(2.0 * self["temperature"])
+        scale = self["scale"] if "scale" in self._columns else 1.0
+        thermal = np.sqrt(2.0 * self["temperature"]) * scale
         series = {name: self[name] for name in self.names} | {"collisions": self["collisions"]}
         series["local_collisions"] = _integral(time, thermal) / np.sqrt(np.pi)
         out = {name: np.empty_like(values) for name, values in series.items()}

@@ -53,12 +53,21 @@ class Distributions(eqx.Module):
 class Record(eqx.Module):
     """What one record reports: the moments at its start, what its steps did, and for how long.
 
-    `elapsed` is in τ0; see `Collisions` for the tally.
+    `elapsed` is in τ0; see `Collisions` for the tally. True velocities are `scale` times those of
+    the moments, and the true time is `elapsed` / `scale`. `slowing` is what √T and T^{3/2} were on
+    average over the steps, relative to the start.
     """
 
     moments: Moments
     tally: Collisions
     elapsed: Scalar
+    scale: Scalar
+    slowing: Float[Array, "2"]
+
+    @staticmethod
+    def steady_scale(moments: Moments, tally: Collisions, elapsed: Scalar) -> "Record":
+        """A record whose velocities are the true ones and whose rates are those of its start."""
+        return Record(moments, tally, elapsed, jnp.ones_like(elapsed), jnp.ones(2, elapsed.dtype))
 
 
 def centred(velocity: Velocity) -> Velocity:
@@ -102,15 +111,17 @@ def distributions(velocity: Velocity) -> Distributions:
     vx, vy, vz = velocity
     squared = vx * vx + vy * vy + vz * vz
     scale = jnp.sqrt(1.5 / mean(squared))
-    half = round(LARGEST_VELOCITY / BIN_WIDTH)
     return Distributions(
-        _histogram(vx * jnp.sign(vy) * scale, -half, half),
-        _histogram(vy * jnp.sign(vx) * scale, -half, half),
-        _histogram(jnp.sqrt(squared) * scale, 0, half),
+        histogram(vx * jnp.sign(vy) * scale, symmetric=True),
+        histogram(vy * jnp.sign(vx) * scale, symmetric=True),
+        histogram(jnp.sqrt(squared) * scale, symmetric=False),
     )
 
 
-def _histogram(values, first: int, last: int):
+def histogram(values, *, symmetric: bool):
+    """Fractions of values in the bins of `bin_centres`."""
+    last = round(LARGEST_VELOCITY / BIN_WIDTH)
+    first = -last if symmetric else 0
     index = jnp.floor(values / BIN_WIDTH).astype(jnp.int32).ravel() - first
     counts = jnp.zeros(last - first, jnp.int32).at[index].add(1, mode="drop")
     return counts.astype(values.dtype) / values.size

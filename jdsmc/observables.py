@@ -27,8 +27,22 @@ def maxwell_speed_classes() -> np.ndarray:
 
 
 def particle_means(record) -> dict[str, np.ndarray]:
-    """Per-realization averages at each record, with the powers of T that normalize them."""
-    m = record.moments
+    """Per-realization averages at each record, and the scale of the velocities."""
+    rates = rate_averages(record.moments, record.slowing)
+    return moment_averages(record.moments) | rates | {"scale": record.scale}
+
+
+def rate_averages(m, slowing) -> dict[str, np.ndarray]:
+    """√T and T^{3/2} averaged over the steps of a record: what collision rates go with."""
+    temperature = (m.xx + m.yy + m.zz) / 3.0
+    return {
+        "T1_steps": np.sqrt(temperature) * slowing[..., 0],
+        "T3_steps": temperature**1.5 * slowing[..., 1],
+    }
+
+
+def moment_averages(m) -> dict[str, np.ndarray]:
+    """Moments with the powers of T that normalize them."""
     temperature = (m.xx + m.yy + m.zz) / 3.0
     powers = {f"T{k}": temperature ** (k / 2.0) for k in (1, 3, 4, 6)}
     direct = {
@@ -77,8 +91,8 @@ def collisional(means: dict, restitution, rate_factor) -> dict:
     ⟨V12³⟩ comes from the energy lost: ζ = (2/3T) loss per particle and time; divided by ζ0, it is
     ⟨V12³⟩/⟨V12³⟩0, eqs. (2.10) and (2.16). Undefined (NaN) where no energy is lost.
     """
-    local = rate_factor * np.sqrt(2.0 / np.pi) * means["T1"]
-    inelastic = (1.0 - restitution**2) * np.sqrt(2.0) / np.sqrt(np.pi) * means["T3"]
+    local = rate_factor * np.sqrt(2.0 / np.pi) * means["T1_steps"]
+    inelastic = (1.0 - restitution**2) * np.sqrt(2.0) / np.sqrt(np.pi) * means["T3_steps"]
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = np.where(means["energy_lost"] > 0, means["energy_lost"] / inelastic, np.nan)
     return {

@@ -26,7 +26,7 @@ def run(
     seed: int = 0,
     duration: float | None = None,
     collisions: float | None = None,
-    observable: str = "shear_stress",
+    observable: str | None = None,
     rtol: float = 1e-3,
     budget: float = 5_000.0,
     time_step: float = 0.1,
@@ -49,7 +49,7 @@ def run(
         seed: of all random numbers; the same seed gives the same result.
         duration: time to simulate (τ0).
         collisions: time to simulate, in accepted collisions per particle.
-        observable, rtol: the precision asked for.
+        observable, rtol: the precision asked for; by default of the scene's main observable.
         budget: most collisions per particle to spend.
         time_step: largest time step as a fraction of τ(T) and of 1/a, in (0, 1]; it is shortened
             so that a particle is a candidate at most 0.5 times a step.
@@ -67,7 +67,9 @@ def run(
     options = Options.checked(
         n_particles, time_step, splitting, dtype, steps_per_record, _records(steps_per_record)
     )
-    limits = Limits(scene, duration, collisions, observable, rtol, budget)
+    limits = Limits(
+        scene, duration, collisions, observable or scene.default_observable, rtol, budget
+    )
     check.at_least("n_realizations", n_realizations, 4)
     check.at_least("seed", seed, 0)
     flat, _ = grid.flatten(scene)
@@ -89,7 +91,7 @@ def run(
                 if interrupted.is_set() and not stopped:
                     stopped = f"interrupted after {session.spent:.1f} collisions per particle"
     except FaultError as error:
-        if session.history.length_or_zero:
+        if session.history.length:
             error.result = result(f"fault: {error}")
         raise
     if session.failed:
@@ -141,8 +143,10 @@ class Session:
 
     def __init__(self, scene, options: Options, engine: Engine, limits: Limits):
         self.scene, self.options, self.engine, self.limits = scene, options, engine, limits
-        self.history = History(options.plan.rows * options.plan.lanes, options.steps)
-        self.tracker = SteadyTracker(engine.shape[0])
+        self.history = History(
+            options.plan.rows * options.plan.lanes, options.steps, scene.averages
+        )
+        self.tracker = SteadyTracker(engine.shape[0], scene.monitored)
         self.precision = np.inf
         self.failed = False
         self._next_look = 0.0
@@ -151,7 +155,7 @@ class Session:
         """One chunk, its faults checked, and the steady state looked for."""
         record, sample = self.engine.advance()
         self.history.append(record, sample)
-        faults.check(self.history, record)
+        faults.check(self.scene, self.history, record)
         if self.limits.can_be_steady:
             self.tracker.update(self.history)
 

@@ -4,6 +4,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from . import random
+from .collide import Collisions
 from .drive import mean
 from .options import Options
 from .types import Key, Scalar, Velocity
@@ -11,12 +12,12 @@ from .types import Key, Scalar, Velocity
 INITIAL_MAJORANT = 6.0
 """First bound on relative speeds over v0(T): a Maxwellian exceeds it once in 6e7 pairs."""
 
-RAISE, RELAX = 1.05, 0.02
-"""A pair faster than the majorant raises it to 1.05 times its speed; else it moves 2% of the way to
-the fastest pair of the record.
+RAISE, RELAX = 1.05, 0.0025
+"""A pair faster than the majorant raises it to 1.05 times its speed; else it moves by 0.25% of
+the way to the fastest pair of the step.
 
 If it never fell, one rare pair of the exponential tail of a sheared gas would slow the rest of the
-run (after 3e4 steps by half). The bound is then exceeded every ten records or so, by a percent of
+run (after 3e4 steps by half). The bound is then exceeded every hundred steps or so, by a percent of
 one collision in 1e4: a share of 1e-6, counted as `Collisions.excess`; the limit is 1e-4.
 """
 
@@ -44,7 +45,12 @@ class HomogeneousState(eqx.Module):
         """T = m⟨V²⟩/d."""
         return mean(sum(v * v for v in velocity)) / len(velocity)
 
-    def next_majorant(self, fastest: Scalar) -> Scalar:
-        """The majorant of the next record: raised if a pair was faster, else a little lower."""
-        relaxed = self.majorant + RELAX * (fastest - self.majorant)
-        return jnp.where(fastest > self.majorant, RAISE * fastest, relaxed)
+
+def next_majorant(reduced: Scalar, majorant: Scalar, tally: Collisions) -> Scalar:
+    """The majorant over v0(T) of the next step: raised if a pair was faster, else lowered.
+
+    Arguments: the present one, over v0(T) and in v0, and what the step's collisions told.
+    """
+    fastest = tally.fastest * (reduced / majorant)
+    relaxed = reduced + RELAX * (fastest - reduced)
+    return jnp.where(fastest > reduced, RAISE * fastest, relaxed)

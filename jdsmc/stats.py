@@ -18,14 +18,15 @@ def jackknife(means: dict[str, np.ndarray], function: Callable, axis: int):
     count = next(iter(means.values())).shape[axis]
     total = {name: np.sum(value, axis=axis) for name, value in means.items()}
     value = function({name: array / count for name, array in total.items()})
-    left_out = [
-        function({n: (total[n] - np.take(means[n], r, axis=axis)) / (count - 1) for n in means})
-        for r in range(count)
-    ]
-    error = {
-        name: np.sqrt((count - 1) * np.var([one[name] for one in left_out], axis=0))
-        for name in value
-    }
+    with np.errstate(invalid="ignore"):  # what is infinite has no error: NaN
+        left_out = [
+            function({n: (total[n] - np.take(means[n], r, axis=axis)) / (count - 1) for n in means})
+            for r in range(count)
+        ]
+        error = {
+            name: np.sqrt((count - 1) * np.var([one[name] for one in left_out], axis=0))
+            for name in value
+        }
     return value, error
 
 

@@ -5,7 +5,6 @@ import numpy as np
 from .history import History
 from .stats import drift_significance
 
-MONITORED = ("temperature", "xy", "xx", "fourth")
 FIRST_TEST = 10.0
 """Collisions per particle before the first test."""
 
@@ -26,7 +25,8 @@ class SteadyTracker:
     test is across realizations, which share no drift by chance.
     """
 
-    def __init__(self, points: int):
+    def __init__(self, points: int, monitored: tuple[str, ...]):
+        self.monitored = monitored
         self.start = np.full(points, -1)
         self._next_test = np.full(points, FIRST_TEST)
 
@@ -46,7 +46,7 @@ class SteadyTracker:
         half, three_quarters = (
             history.record_at_collisions(point, share * collisions) for share in (0.5, 0.75)
         )
-        if least_significance(history, point, half, three_quarters, history.length) > ACCEPT:
+        if self._significance(history, point, half, three_quarters, history.length) > ACCEPT:
             self.start[point] = history.length
             self._next_test[point] = collisions + FIRST_TEST
         else:
@@ -63,18 +63,17 @@ class SteadyTracker:
         quarter = first + (last - first) // 4
         if quarter - first < 2:
             return False
-        if least_significance(history, point, first, quarter, last) > REJECT:
+        if self._significance(history, point, first, quarter, last) > REJECT:
             return True
         self.start[point] = quarter
         return False
+
+    def _significance(self, history: History, point: int, first, middle, last) -> float:
+        """Smallest significance of a drift of the monitored moments between two windows."""
+        early, late = history.point(point, first, middle), history.point(point, middle, last)
+        return min(float(drift_significance(early[n], late[n])) for n in self.monitored)
 
     @property
     def all_measuring(self) -> bool:
         """True once every point has left its warm-up."""
         return bool(np.all(self.start >= 0))
-
-
-def least_significance(history: History, point: int, first, middle, last) -> float:
-    """Smallest significance of a drift of the monitored moments between two windows."""
-    early, late = history.point(point, first, middle), history.point(point, middle, last)
-    return min(float(drift_significance(early[n], late[n])) for n in MONITORED)

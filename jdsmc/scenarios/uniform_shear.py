@@ -9,9 +9,8 @@ from typing import ClassVar
 import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
-from jax import lax
 
-from .. import check, random
+from .. import check
 from ..collide import Collisions, collide
 from ..drive import shear, sheared_drag
 from ..gas import INITIAL_TEMPERATURE, AbstractGas
@@ -23,8 +22,9 @@ from ..measure import (
     moments,
     pair_cubed,
 )
-from ..observables import MAXWELL_CUBED, isotropic, rheology
+from ..observables import MAXWELL_CUBED, isotropic, particle_means, rheology
 from ..options import Options
+from ..pace import make_steps
 from ..pairs import remix
 from ..state import HomogeneousState
 from ..types import Key, Physical, Scalar, Velocity
@@ -45,6 +45,10 @@ class UniformShear(eqx.Module):
         *("relative_speed_cubed", "a2", "a3", "speed_ratio", "collision_rate_ratio"),
     )
 
+    densities: ClassVar[dict[str, float]] = {"marginal_x": 0.5, "marginal_y": 0.5, "speed": 1.0}
+    monitored: ClassVar[tuple[str, ...]] = ("temperature", "xy", "xx", "fourth")
+    default_observable: ClassVar[str] = "shear_stress"
+
     gas: AbstractGas
     shear_rate: Physical = eqx.field(converter=check.physical)
 
@@ -60,11 +64,6 @@ class UniformShear(eqx.Module):
     def initial(self, key: Key, options: Options) -> HomogeneousState:
         """Maxwellian velocities with mean exactly zero and temperature exactly T0."""
         return HomogeneousState.maxwellian(key, options, INITIAL_TEMPERATURE)
-
-    def time_step(self, temperature: Scalar, options: Options) -> Scalar:
-        """The asked fraction of τ(T) or of 1/a, whichever is shorter."""
-        rate = jnp.maximum(jnp.sqrt(2.0 * temperature), self.shear_rate)
-        return options.time_step / rate
 
     def flow(self, velocity: Velocity, duration: Scalar, drag_ratio: Scalar) -> Velocity:
         """Shear, and for a frictional gas the drag, during `duration`."""
@@ -103,25 +102,39 @@ class UniformShear(eqx.Module):
         """One record: measure, choose the time step, then make `options.steps` of them."""
         velocity = centred(state.velocity)
         sampled = moments(velocity)
-        temperature = lax.stop_gradient(sampled.temperature())
-        thermal = jnp.sqrt(2.0 * temperature)
-        majorant = state.majorant * thermal
-        longest = options.plan.largest_hits() * 2.0**0.5 / majorant
-        duration = jnp.minimum(lax.stop_gradient(self.time_step(temperature, options)), longest)
 
-        def one_step(velocity, count):
-            step_key = random.fold_in(key, count)
-            return self.step(step_key, velocity, majorant, duration, options)
+        def step(key, velocity, majorant, duration):
+            velocity, tally = self.step(key, velocity, majorant, duration, options)
+            return velocity, tally, None
 
-        velocity, tallies = lax.scan(one_step, velocity, jnp.arange(options.steps))
-        tally = Collisions.over(tallies)
-        state = HomogeneousState(velocity, state.next_majorant(tally.fastest / thermal))
-        return state, Record(sampled, tally, options.steps * duration)
+        velocity, majorant, tally, elapsed, _ = make_steps(
+            step,
+            key,
+            velocity,
+            state.majorant,
+            sampled.temperature(),
+            self.shear_rate,
+            options,
+        )
+        record = Record.steady_scale(sampled, tally, elapsed)
+        return HomogeneousState(velocity, majorant), record
 
     def finish_chunk(self, state: HomogeneousState) -> tuple[HomogeneousState, Distributions]:
         """Sample the velocity distributions and deal the particles into new rows."""
         sample = distributions(state.velocity)
         return HomogeneousState(tuple(map(remix, state.velocity)), state.majorant), sample
+
+    def faults(self, record: Record) -> str:
+        """Nothing can fail here that does not fail in every scene."""
+        return ""
+
+    def averages(self, record: Record) -> dict[str, np.ndarray]:
+        """Averages over the particles at each record."""
+        return particle_means(record)
+
+    def evolution(self, means: dict) -> dict:
+        """Nothing but the observables; for the time series only."""
+        return {}
 
     def observables(self, means: dict) -> dict:
         """Observables from averages over particles, realizations and time (host arrays)."""
