@@ -13,7 +13,7 @@ from .assemble import assemble, steady_estimates
 from .engine import Engine
 from .faults import FaultError, NotSteadyError
 from .history import History
-from .options import Options
+from .options import STEPS_PER_RECORD, TIME_STEP, Options
 from .result import Result
 from .steady import SteadyTracker
 
@@ -29,10 +29,10 @@ def run(
     observable: str | None = None,
     rtol: float = 1e-3,
     budget: float = 5_000.0,
-    time_step: float = 0.1,
+    time_step: float = TIME_STEP,
     splitting: Literal["strang", "lie"] = "strang",
     dtype: Literal["float32", "float64"] = "float32",
-    steps_per_record: int = 8,
+    steps_per_record: int = STEPS_PER_RECORD,
     progress: bool = True,
 ) -> Result:
     """Simulate a scene and return labelled results with error bars.
