@@ -62,7 +62,7 @@ def assemble(scene, options: Options, history: History, tracker, attrs: dict) ->
     groups = {"/series": _series(flat, shape, dims, coords, history)}
     root = xr.Dataset(coords=coords)
     if tracker is not None and history.length and tracker.all_measuring:
-        steady = _steady(flat, history, tracker)
+        steady = _steady(flat, history, tracker, options)
         if steady is not None:
             root = _dataset(steady, shape, dims, coords)
             root["steady_from_time"] = dims, _at_start(history, "time", tracker).reshape(shape)
@@ -100,9 +100,10 @@ def steady_estimates(scene, history: History, point: int, edges) -> tuple[dict, 
     return jackknife(means, observables, axis=0)
 
 
-def _steady(flat, history: History, tracker: SteadyTracker):
+def _steady(flat, history: History, tracker: SteadyTracker, options: Options):
+    """Values and errors of every point; None unless each has at least one whole chunk."""
     points = len(tracker.start)
-    if np.any(tracker.start >= history.length - 1):
+    if np.any(tracker.start > history.length - options.records):
         return None
     estimates = [steady_estimates(flat, history, p, tracker.start[p]) for p in range(points)]
     names = estimates[0][0]
@@ -220,6 +221,7 @@ def provenance(scene, options: Options) -> dict:
         **names,
         "n_particles": options.plan.rows * options.plan.lanes,
         "time_step": options.time_step,
+        "steps_per_record": options.steps,
         "splitting": options.splitting,
         "dtype": str(options.dtype),
     }

@@ -49,6 +49,13 @@ def in_range(name, value, low, high, *, low_included=True, high_included=True):
         raise ValueError(f"{name} is an empty array; give at least one value.")
 
 
+def scalar(name, value, low, high, *, high_included=True):
+    """Raise unless `value` is one number above `low` and within `high`."""
+    if np.ndim(value) > 0:
+        raise TypeError(f"{name} = {value!r} must be one number; only physical numbers are swept.")
+    in_range(name, value, low, high, low_included=False, high_included=high_included)
+
+
 def at_least(name, value, low):
     """Raise unless `value` is an integer (bool excluded) of at least `low`."""
     if isinstance(value, bool) or not isinstance(value, int | np.integer):

@@ -1,90 +1,51 @@
 """The command line: `jdsmc run | sweep | show | plot`."""
 
 import sys
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 import jax
 import numpy as np
 import tyro
 
+from . import grid
+from ._commands import Cooling, HeatFlux, Numerics, Output, Scene, Shear, named
 from .faults import FaultError
-from .gas import RATE_FACTORS, ElasticHardSpheres, InelasticHardSpheres
 from .result import Result, check_writable, join_gases, load
 from .run import run
-from .scenarios import UniformShear
 
-GASES = ("ihs", "ehs", "ehs-measured")
 PICTURES = (".png", ".pdf", ".svg")
 MOST_STEPS = 100_000
 """Longest range taken for meant."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Numerics:
-    """How a run is made."""
-
-    particles: int = 20_000
-    """Particles of one realization (at least 64, with a divisor from 64 to 1024)."""
-    realizations: int = 8
-    """Independent realizations (at least 4); the error bars come from them."""
-    seed: int = 0
-    """Seed of all random numbers."""
-    duration: float | None = None
-    """Time to simulate, in units of tau0; if not given, run until steady and precise."""
-    collisions: float | None = None
-    """Time to simulate, in accepted collisions per particle."""
-    observable: str = "shear_stress"
-    """Observable whose precision ends the run."""
-    rtol: float = 1e-3
-    """Relative standard error asked of that observable (dimensionless)."""
-    budget: float = 5_000.0
-    """Most collisions per particle to spend."""
-    time_step: float = 0.1
-    """Largest time step as a fraction of tau(T) and of 1/shear_rate, in (0, 1]."""
-    splitting: Literal["strang", "lie"] = "strang"
-    """Order of flow and collisions in a step: second order, or first as in the paper."""
-    dtype: Literal["float32", "float64"] = "float32"
-    """Precision of the velocities."""
-    steps_per_record: int = 8
-    """Time steps between two measurements."""
-    progress: bool = True
-    """Show a progress bar."""
-
-
-@dataclass(frozen=True)
-class Shear:
-    """Uniform shear flow of a granular gas, or (sweep) many of them.
-
-    Lengths are in mean free paths lambda0, times in tau0 = lambda0/v0, v0 = sqrt(2 T0/m).
-    """
-
-    numerics: tyro.conf.OmitArgPrefixes[Numerics]
-    restitution: str = "0.9"
-    """Coefficient of normal restitution, in (0, 1]. Sweeps take ranges first:last:step and lists
-    separated by commas, e.g. 0.5:0.95:0.05 or 0.5,0.7."""
-    shear_rate: str = "4"
-    """Shear rate a, in units of 1/tau0, at least 0; sweeps take ranges and lists."""
-    gas: str = "ihs"
-    """Gas: ihs (inelastic hard spheres), ehs (frictional elastic hard spheres), ehs-measured (the
-    same with the measured drag); sweeps take a list."""
-    rate_factor: str = "linear"
-    """Collision rate of the elastic gas over the inelastic one: linear, viscosity, or a number."""
-    out: Path | None = None
-    """File to write (HDF5); it must not exist."""
-    plot: Path | None = None
-    """Picture to write (PNG, PDF or SVG)."""
-
-
-def run_shear(shear: tyro.conf.OmitArgPrefixes[Shear]) -> None:
+def run_shear(scene: tyro.conf.OmitArgPrefixes[Shear]) -> None:
     """Simulate one sheared gas and show its steady values with error bars."""
-    _simulate(shear, sweep=False)
+    simulate(scene, sweep=False)
 
 
-def sweep_shear(shear: tyro.conf.OmitArgPrefixes[Shear]) -> None:
+def run_cooling(scene: tyro.conf.OmitArgPrefixes[Cooling]) -> None:
+    """Simulate one freely cooling gas: Haff's law, cumulants of its steady distribution."""
+    simulate(scene, sweep=False)
+
+
+def run_heat_flux(scene: tyro.conf.OmitArgPrefixes[HeatFlux]) -> None:
+    """Simulate one gas under the heat-flux force: conductivity, Sonine coefficients."""
+    simulate(scene, sweep=False)
+
+
+def sweep_shear(scene: tyro.conf.OmitArgPrefixes[Shear]) -> None:
     """Simulate every combination of the given parameters, in one program for each gas."""
-    _simulate(shear, sweep=True)
+    simulate(scene, sweep=True)
+
+
+def sweep_cooling(scene: tyro.conf.OmitArgPrefixes[Cooling]) -> None:
+    """Simulate freely cooling gases of every given restitution, in one program."""
+    simulate(scene, sweep=True)
+
+
+def sweep_heat_flux(scene: tyro.conf.OmitArgPrefixes[HeatFlux]) -> None:
+    """Simulate every combination of the given restitutions and fields, in one program."""
+    simulate(scene, sweep=True)
 
 
 def show(file: tyro.conf.Positional[Path]) -> None:
@@ -103,7 +64,16 @@ def plot(file: tyro.conf.Positional[Path], out: Path | None = None) -> None:
     _save_picture(result, check_picture(out or file.with_suffix(".png")))
 
 
-COMMANDS = {"run shear": run_shear, "sweep shear": sweep_shear, "show": show, "plot": plot}
+COMMANDS = {
+    "run shear": run_shear,
+    "run cooling": run_cooling,
+    "run heat-flux": run_heat_flux,
+    "sweep shear": sweep_shear,
+    "sweep cooling": sweep_cooling,
+    "sweep heat-flux": sweep_heat_flux,
+    "show": show,
+    "plot": plot,
+}
 
 
 def join_words(arguments: list[str]) -> list[str]:
@@ -115,7 +85,7 @@ def join_words(arguments: list[str]) -> list[str]:
         wanted = [name for name in COMMANDS if name.startswith(arguments[0])]
         if "--help" in arguments or "-h" in arguments:
             return ["--help"]
-        raise ValueError(f"`jdsmc {arguments[0]}` needs a scene: {' or '.join(wanted)}.")
+        raise ValueError(f"`jdsmc {arguments[0]}` needs a scene: {', '.join(wanted)}.")
     return arguments
 
 
@@ -140,26 +110,20 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
-def _simulate(shear: Shear, sweep: bool) -> None:
-    if shear.out is not None:
-        check_writable(shear.out)
-    if shear.plot is not None:
-        check_picture(shear.plot)
-    gases = shear.gas.split(",")
-    restitution = numbers("restitution", shear.restitution)
-    shear_rate = numbers("shear_rate", shear.shear_rate)
-    named = shear.rate_factor in RATE_FACTORS
-    factor = shear.rate_factor if named else numbers("rate_factor", shear.rate_factor)
-    several = [np.ndim(values) for values in (restitution, shear_rate, factor)]
-    if not sweep and (len(gases) > 1 or any(several)):
-        raise ValueError("several values were given; use `jdsmc sweep` for ranges and lists.")
-    scenes = {name: UniformShear(_gas(name, restitution, factor), shear_rate) for name in gases}
+def simulate(arguments: Scene, sweep: bool) -> None:
+    """Run every gas of a command, then write and show what there is."""
+    output = arguments.output
+    if output.out is not None:
+        check_writable(output.out)
+    if output.plot is not None:
+        check_picture(output.plot)
+    scenes = _scenes(arguments, sweep)
     results: dict[str, Result] = {}
     try:
         for name, scene in scenes.items():
             if sweep:
-                print(f"{name}: {max(restitution.size, 1) * max(shear_rate.size, 1)} points")
-            results[name] = _run(scene, shear.numerics)
+                print(f"{name}: {np.prod(grid.flatten(scene)[1], dtype=int)} points")
+            results[name] = _run(scene, arguments.numerics)
             if results[name].attrs["stopped"].startswith("interrupted"):
                 break
     except FaultError as error:
@@ -167,10 +131,20 @@ def _simulate(shear: Shear, sweep: bool) -> None:
             results[name] = error.result
         raise
     finally:
-        _keep(results, shear, sweep)
+        _keep(results, output, join=sweep and arguments.has_gases)
 
 
-def _run(scene: UniformShear, numerics: Numerics) -> Result:
+def _scenes(arguments: Scene, sweep: bool) -> dict:
+    """The scene of every gas; only a sweep may have several values of anything."""
+    texts = {name: getattr(arguments, name) for name in arguments.swept}
+    values = {n: text if named(n, text) else numbers(n, text) for n, text in texts.items()}
+    scenes = arguments.scenes(values)
+    if not sweep and (len(scenes) > 1 or any(np.ndim(value) for value in values.values())):
+        raise ValueError("several values were given; use `jdsmc sweep` for ranges and lists.")
+    return scenes
+
+
+def _run(scene, numerics: Numerics) -> Result:
     if numerics.dtype == "float64":
         jax.config.update("jax_enable_x64", True)
     return run(
@@ -191,15 +165,15 @@ def _run(scene: UniformShear, numerics: Numerics) -> Result:
     )
 
 
-def _keep(results: dict[str, Result], shear: Shear, sweep: bool) -> None:
+def _keep(results: dict[str, Result], output: Output, join: bool) -> None:
     """Write and show what there is, also after an interruption or a fault."""
     if not results:
         return
-    result = join_gases(results) if sweep else next(iter(results.values()))
-    if shear.out is not None:
-        print(f"Results: {result.save(shear.out)}")
-    if shear.plot is not None:
-        _save_picture(result, shear.plot)
+    result = join_gases(results) if join else next(iter(results.values()))
+    if output.out is not None:
+        print(f"Results: {result.save(output.out)}")
+    if output.plot is not None:
+        _save_picture(result, output.plot)
     print(result.table())
 
 
@@ -216,14 +190,6 @@ def _save_picture(result: Result, path: Path) -> None:
     matplotlib.use("agg")
     result.plot(path)
     print(f"Picture: {path}")
-
-
-def _gas(name: str, restitution, factor):
-    if name not in GASES:
-        raise ValueError(f"gas = {name!r} is unknown; choose from {', '.join(GASES)}.")
-    if name == "ihs":
-        return InelasticHardSpheres(restitution)
-    return ElasticHardSpheres(restitution, factor, "measured" if "measured" in name else "local")
 
 
 def numbers(name: str, text: str) -> np.ndarray:

@@ -21,7 +21,7 @@ INITIAL_TEMPERATURE = 0.5
 class AbstractGas(eqx.Module):
     """A gas of identical particles: pair rate, collision rule, and drag if there is one.
 
-    A new gas states three things. `rate_factor` multiplies the hard-sphere rate n σ² π g;
+    A new gas states three things. `rate` is the collision rate of a pair, g for hard spheres;
     `momentum_transfer` maps the relative velocity before and after an *elastic* collision of the
     same geometry to the momentum the first particle loses; `drag_coefficient` c makes the
     friction ζ = c √(2T), zero for none. `frictional` is static: a gas without drag pays nothing.

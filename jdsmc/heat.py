@@ -3,6 +3,8 @@
 Equation numbers: Montanero, Santos and Garzó, Physica A 376, 75 (2007). c = V/√(2T/m).
 """
 
+import math
+
 import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
@@ -13,8 +15,10 @@ from .collide import Collisions
 from .drive import mean
 from .measure import Moments, histogram, moments
 from .observables import isotropic, moment_averages, rate_averages
-from .theory.transport import elastic_conductivity
 from .types import Scalar, Velocity
+
+ELASTIC_CONDUCTIVITY = 75.0 * math.sqrt(math.pi) / 64.0
+"""κ0 at T0, eq. (2.47), in n λ0 v0."""
 
 ORDERS = (1, 2, 3)
 """Sonine orders k."""
@@ -34,6 +38,7 @@ class HeatMoments(eqx.Module):
 class HeatRecord(eqx.Module):
     """What one record reports; see `Record`.
 
+    `elapsed` is the time of the gas held at T0, ∫ √(T/T0) dt, and `slowing` refers to it.
     `runaway` is the largest -½ ε V_x dt of a particle in a step, `step` the mean dt.
     """
 
@@ -90,7 +95,7 @@ def heat_observables(means: dict, field) -> dict:
     even = isotropic(means)
     even.pop("temperature")
     with np.errstate(divide="ignore", invalid="ignore"):
-        ratio = -means["flux3"] / (field * elastic_conductivity(3))
+        ratio = -means["flux3"] / (field * ELASTIC_CONDUCTIVITY)
         full = [sonine(means, "flux", k, 1.5) / field for k in ORDERS]
         marginal = [sonine(means, "marginal", k, 0.5) / field for k in ORDERS]
     return {

@@ -115,16 +115,18 @@ class History:
         """Averages of every realization at the mean times of the records.
 
         Realizations have their own clocks (their time step follows their own temperature); each is
-        interpolated linearly in time to the mean clock of its point.
+        interpolated linearly in time to the mean clock of its point, as far as all have come.
         Returns: times (points, records) and averages (points, realizations, records, ...).
         """
         time = self["time"]
         common = np.mean(time, axis=1)
+        reached = np.sum(common <= np.min(time[:, :, -1], axis=1, keepdims=True), axis=1)
+        common = common[:, : np.min(reached)]
         scale = self["scale"] if "scale" in self._columns else 1.0
         thermal = np.sqrt(2.0 * self["temperature"]) * scale
         series = {name: self[name] for name in self.names} | {"collisions": self["collisions"]}
         series["local_collisions"] = _integral(time, thermal) / np.sqrt(np.pi)
-        out = {name: np.empty_like(values) for name, values in series.items()}
+        out = {name: np.empty_like(v[:, :, : common.shape[1]]) for name, v in series.items()}
         for p, r in np.ndindex(time.shape[:2]):
             for name, values in series.items():
                 out[name][p, r] = _interpolate(common[p], time[p, r], values[p, r])

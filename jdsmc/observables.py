@@ -70,7 +70,8 @@ def rheology(means: dict, shear_rate) -> dict:
     xx, yy, zz, xy = (means[name] / temperature for name in ("xx", "yy", "zz", "xy"))
     reduced = shear_rate * VISCOSITY_TIME / np.sqrt(2.0 * temperature)
     with np.errstate(divide="ignore", invalid="ignore"):
-        viscosity, first, second = -xy / reduced, (xx - yy) / reduced**2, (zz - yy) / reduced**2
+        sheared = np.where(reduced > 0, reduced, np.nan)
+        viscosity, first, second = -xy / sheared, (xx - yy) / sheared**2, (zz - yy) / sheared**2
     return {
         "pressure_xx": xx,
         "pressure_yy": yy,

@@ -41,8 +41,8 @@ class Options:
         records: int,
     ) -> "Options":
         """Check the options of `run` and lay out the particles; raises ValueError or TypeError."""
-        check.at_least("n_particles", n_particles, 1)
-        check.in_range("time_step", time_step, 0.0, 1.0, low_included=False)
+        check.at_least("n_particles", n_particles, 64)
+        check.scalar("time_step", time_step, 0.0, 1.0)
         check.one_of("splitting", splitting, ("strang", "lie"))
         check.one_of("dtype", str(dtype), ("float32", "float64"))
         if str(dtype) == "float64" and not jax.config.read("jax_enable_x64"):

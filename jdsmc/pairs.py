@@ -8,8 +8,11 @@ mixed among themselves between chunks, so that no two particles are strangers fo
 Two waves per step. With κ = 2M/N candidate hits per particle, wave 1 takes N(κ-κ²)/2 pairs and
 wave 2 takes Nκ²/2 pairs of one particle from wave 1 and one fresh particle. The hits per particle
 are then Poisson to second order, and so is the step in time (plain disjoint pairs are first order:
-`docs/method.md`). The rows taken are fixed; a factor `thinning` <= 1 in the acceptance makes the
-number of candidates exactly right on average for every time step below the largest.
+`docs/method.md`). The rows taken are fixed, for the largest κ = κ_c of the plan. For a smaller κ
+every slot is a candidate with probability κ/κ_c only; a particle that wave 2 takes from wave 1 may
+then not have been a candidate there, and counts as fresh: with shares θ1, θ2 of the slots of either
+wave the weights of f, Q(f, f) and Q(Q, f) are right if and only if κ² = 2 θ1 θ2 s2 and
+κ = 2 s1 θ1 + 2 s2 θ2 (s1, s2: rows of a wave over all rows).
 """
 
 from typing import NamedTuple
@@ -35,11 +38,14 @@ class PairPlan(NamedTuple):
     first: int
     second: int
 
+    def first_hits(self) -> float:
+        """κ_c, from 2 first/rows = κ_c - κ_c²: the κ that uses every slot of wave 1."""
+        return 0.5 - np.sqrt(max(0.0, 0.25 - 2.0 * self.first / self.rows))
+
     def largest_hits(self) -> float:
-        """The κ at which the thinning of a wave reaches one: 2·first = κ-κ², 2·second = κ²."""
-        first, second = 2.0 * self.first / self.rows, 2.0 * self.second / self.rows
-        from_first = 0.5 - np.sqrt(0.25 - first) if first < 0.25 else LARGEST_HITS
-        return float(min(from_first, np.sqrt(second), LARGEST_HITS))
+        """The κ at which the share of a wave reaches one."""
+        critical = self.first_hits()
+        return float(min(critical, 2.0 * self.second / (self.rows * critical)))
 
 
 def plan_pairs(n_particles: int, time_step: float) -> PairPlan:
@@ -49,8 +55,10 @@ def plan_pairs(n_particles: int, time_step: float) -> PairPlan:
     """
     rows = arrange(n_particles)
     hits = min(LARGEST_HITS, time_step * TYPICAL_MAJORANT / np.sqrt(2.0))
-    first = int(np.ceil(rows * (hits - hits**2) / 2.0 - 1e-9))
-    second = int(np.ceil(rows * hits**2 / 2.0 - 1e-9))
+    # not above rows/8, where κ - κ² is largest; rounded up only if that leaves it there
+    first = min(int(np.ceil(rows * (hits - hits**2) / 2.0 - 1e-9)), rows // 8)
+    critical = PairPlan(rows, 1, first, 1).first_hits()
+    second = int(np.ceil(rows * min(hits, critical) * critical / 2.0 - 1e-9))
     return PairPlan(rows, n_particles // rows, first, min(second, first))
 
 
@@ -73,10 +81,12 @@ def arrange(n_particles: int) -> int:
 
 
 def thinning(plan: PairPlan, hits: Scalar) -> tuple[Scalar, Scalar]:
-    """Share of the slots of either wave that are candidates at κ = `hits`; above one: overflow."""
-    first = (hits - hits * hits) * (plan.rows / (2.0 * plan.first))
-    second = (hits * hits) * (plan.rows / (2.0 * plan.second))
-    return first, second
+    """Shares θ1, θ2 of the slots of either wave that are candidates at κ = `hits`.
+
+    Solves the two conditions above; a share above one is an overflow.
+    """
+    critical = plan.first_hits()
+    return hits / critical, hits * (critical * plan.rows / (2.0 * plan.second))
 
 
 def take_rows(key: Key, plan: PairPlan, velocity: Velocity):

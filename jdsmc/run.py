@@ -6,7 +6,7 @@ import threading
 from typing import Literal
 
 import numpy as np
-from tqdm.auto import tqdm
+from tqdm import tqdm
 
 from . import check, faults, grid
 from .assemble import assemble, steady_estimates
@@ -67,6 +67,8 @@ def run(
     options = Options.checked(
         n_particles, time_step, splitting, dtype, steps_per_record, _records(steps_per_record)
     )
+    if not hasattr(scene, "steady_observables"):
+        raise TypeError(f"scene must be one of jdsmc.scenarios, got {scene!r}.")
     limits = Limits(
         scene, duration, collisions, observable or scene.default_observable, rtol, budget
     )
@@ -75,10 +77,10 @@ def run(
     flat, _ = grid.flatten(scene)
     engine = Engine(flat, n_realizations, seed, options)
     session = Session(flat, options, engine, limits)
-    attrs = {"seed": seed, "n_realizations": n_realizations, "rtol": rtol, "budget": budget}
+    attrs = {"seed": seed, "n_realizations": n_realizations, **limits.attributes()}
 
     def result(stopped: str) -> Result:
-        tracker = session.tracker if limits.can_be_steady else None
+        tracker = session.tracker if limits.can_be_steady and not session.failed else None
         return assemble(scene, options, session.history, tracker, attrs | {"stopped": stopped})
 
     try:
@@ -113,11 +115,10 @@ class Limits:
     def __init__(self, scene, duration, collisions, observable, rtol, budget):
         if duration is not None and collisions is not None:
             raise ValueError("give duration or collisions, not both.")
-        for name, value in (("duration", duration), ("collisions", collisions)):
+        for name, value in (("duration", duration), ("collisions", collisions), ("budget", budget)):
             if value is not None:
-                check.in_range(name, value, 0.0, np.inf, low_included=False, high_included=False)
-        check.in_range("rtol", rtol, 0.0, 1.0, low_included=False)
-        check.in_range("budget", budget, 0.0, np.inf, low_included=False, high_included=False)
+                check.scalar(name, value, 0.0, np.inf, high_included=False)
+        check.scalar("rtol", rtol, 0.0, 1.0)
         self.duration, self.collisions = duration, collisions
         self.observable, self.rtol, self.budget = observable, float(rtol), float(budget)
         self.fixed = duration is not None or collisions is not None
@@ -132,6 +133,12 @@ class Limits:
                 f"{type(scene).__name__} has no steady state with these parameters "
                 "(it needs shear_rate > 0 and restitution < 1); give duration or collisions."
             )
+
+    def attributes(self) -> dict:
+        """What was asked for, as attributes of the result."""
+        asked = {"observable": self.observable, "rtol": self.rtol, "budget": self.budget}
+        times = {"duration": self.duration, "collisions": self.collisions}
+        return asked | {name: float(t) for name, t in times.items() if t is not None}
 
 
 BLOCKS = 4
@@ -222,9 +229,9 @@ class Session:
         """Share of the work done, as far as it can be known."""
         limits = self.limits
         if limits.duration is not None:
-            return float(np.min(self.history.mean_time())) / limits.duration
+            return min(1.0, float(np.min(self.history.mean_time())) / limits.duration)
         if limits.collisions is not None:
-            return self.spent / limits.collisions
+            return min(1.0, self.spent / limits.collisions)
         precise = (limits.rtol / self.precision) ** 2 if np.isfinite(self.precision) else 0.0
         return min(1.0, max(precise, self.spent / limits.budget))
 

@@ -94,7 +94,7 @@ class HeatFluxForce(eqx.Module):
         velocity, before = self.flow(velocity, 0.5 * duration)
         velocity, tally = collide(key, self.gas, options.plan, velocity, majorant, duration)
         velocity, after = self.flow(velocity, 0.5 * duration)
-        return velocity, tally, jnp.maximum(before, after)
+        return velocity, tally, 2.0 * jnp.maximum(before, after)
 
     def advance(self, key: Key, state: HomogeneousState, options: Options):
         """One record: scale to T0, measure, then make `options.steps` steps."""
@@ -114,8 +114,14 @@ class HeatFluxForce(eqx.Module):
             0.0,
             options,
         )
+        root, cube = slowed_rates(after)
         record = HeatRecord(
-            sampled, tally, elapsed, slowed_rates(after), jnp.max(runaway), elapsed / options.steps
+            sampled,
+            tally,
+            elapsed * root,
+            jnp.stack([jnp.ones_like(root), cube / root]),
+            jnp.nanmax(runaway),
+            elapsed / options.steps,
         )
         return HomogeneousState(velocity, majorant), record
 
@@ -126,17 +132,16 @@ class HeatFluxForce(eqx.Module):
 
     def faults(self, record: HeatRecord) -> str:
         """Why this record cannot be trusted, or an empty string."""
-        point, _, number = np.unravel_index(np.argmax(record.runaway), record.runaway.shape)
-        worst = float(np.max(record.runaway))
-        if worst < RUNAWAY:
+        point, _, number = np.unravel_index(np.nanargmax(record.runaway), record.runaway.shape)
+        if np.nanmax(record.runaway) < RUNAWAY:
             return ""
         field = float(self.field[point])
         step = float(np.min(record.step[point, :, number]))
-        speed = 2 * worst / field / step
+        speed = 2 * RUNAWAY / field / step
         return (
             f"The heat-flux force runs away with the fastest particles: at field = {field:g} and a "
-            f"time step of {step:.2g} τ0 one particle is faster than {speed:.2g} v0 "
-            "and would reach infinity before it collides. Reduce field, or time_step."
+            f"time step of {step:.2g} τ0 one is faster than {speed:.2g} v0 and would reach "
+            f"infinity within {1 / RUNAWAY:.0f} steps. Reduce field, or time_step."
         )
 
     def averages(self, record: HeatRecord) -> dict[str, np.ndarray]:

@@ -104,7 +104,10 @@ class HomogeneousCooling(eqx.Module):
     def evolution(self, means: dict) -> dict:
         """What changes for ever, for the time series only."""
         scale = means["scale"]
-        return {"temperature": means["temperature"] * scale**2 / INITIAL_TEMPERATURE}
+        return {
+            "temperature": means["temperature"] * scale**2 / INITIAL_TEMPERATURE,
+            "reduced_time": np.sqrt(np.pi) * means["local_collisions"],
+        }
 
 
 def scaled_to_start(velocity: Velocity, log_scale: Scalar) -> tuple[Velocity, Scalar]:

@@ -1,0 +1,86 @@
+"""Error bars and drift tests on numbers whose distribution is known."""
+
+import numpy as np
+import pytest
+from scipy import stats as reference
+
+from jdsmc.stats import drift_significance, jackknife, linear_trend
+
+
+def test_error_of_a_mean():
+    """The jackknife of a mean is std/√R exactly: to rounding."""
+    x = np.random.default_rng(1).normal(size=(3, 8, 5))
+    value, error = jackknife({"x": x}, lambda m: {"x": m["x"]}, axis=1)
+    np.testing.assert_allclose(value["x"], x.mean(axis=1), rtol=1e-12)
+    np.testing.assert_allclose(error["x"], x.std(axis=1, ddof=1) / np.sqrt(8), rtol=1e-12)
+
+
+def test_error_of_a_ratio():
+    """Against the delta method: they differ by the next order, the 5 % spread squared: 1 %."""
+    rng = np.random.default_rng(2)
+    common = rng.normal(size=8)
+    x, y = 3 + 0.15 * (common + 0.3 * rng.normal(size=8)), 2 + 0.1 * common
+    value, error = jackknife({"x": x, "y": y}, lambda m: {"r": m["x"] / m["y"]}, axis=0)
+    ratio = x.mean() / y.mean()
+    delta = np.std((x - ratio * y) / y.mean(), ddof=1) / np.sqrt(8)
+    apart = np.hypot(x.std() / x.mean(), y.std() / y.mean()) / np.sqrt(8) * ratio
+    assert value["r"] == pytest.approx(ratio, rel=1e-12)
+    assert error["r"] == pytest.approx(delta, rel=0.01)
+    assert delta < 0.5 * apart  # the correlation matters here: errors taken apart would be wrong
+
+
+def test_coverage():
+    """z-scores of the ratio of two known means follow Student's t with R - 1 degrees of freedom.
+
+    Through both distribution functions they become standard normal; over n = 4000 experiments
+    their mean is known to 1/√n and their variance to √(2/n) = 0.022. Bound: 4.5 of these, plus
+    0.02 in the variance for the curvature of the ratio (relative spread 0.03).
+    """
+    n, count = 4000, 8
+    rng = np.random.default_rng(3)
+    x, y = (m + 0.03 * m * rng.normal(size=(n, count)) for m in (2.0, 5.0))
+    value, error = jackknife({"x": x, "y": y}, lambda m: {"r": m["x"] / m["y"]}, axis=1)
+    z = (value["r"] - 0.4) / error["r"]
+    normal = reference.norm.ppf(reference.t.cdf(z, count - 1))
+    assert abs(normal.mean()) < 4.5 / np.sqrt(n)
+    assert abs(normal.var() - 1) < 4.5 * np.sqrt(2 / n) + 0.02
+
+
+def test_significance_without_drift_is_uniform():
+    """Kolmogorov-Smirnov over 4000 experiments: a true hypothesis is rejected once in 10⁴."""
+    rng = np.random.default_rng(4)
+    offset = 10 * rng.normal(size=(4000, 8))  # of a realization: common to both blocks
+    early, late = (offset + rng.normal(size=(4000, 8)) for _ in range(2))
+    assert reference.kstest(drift_significance(early, late), "uniform").pvalue > 1e-4
+
+
+def test_significance_is_the_paired_t_test():
+    rng = np.random.default_rng(5)
+    early, late = rng.normal(size=(2, 3, 8)), rng.normal(size=(2, 3, 8))
+    theirs = reference.ttest_rel(early, late, axis=1).pvalue
+    np.testing.assert_allclose(drift_significance(early, late, axis=1), theirs, rtol=1e-9)
+
+
+def test_significance_of_a_drift():
+    """A drift of 10 standard errors and R = 8: the noncentral t has median 10.5, p = 2e-5.
+
+    It is below 3 (p = 0.02) with probability 1e-7: none of 1000 experiments.
+    """
+    rng = np.random.default_rng(6)
+    early, late = rng.normal(size=(1000, 8)), rng.normal(size=(1000, 8))
+    p = drift_significance(early, late + 10 * np.sqrt(2 / 8))
+    assert np.median(p) < 1e-4
+    assert np.max(p) < 0.02
+
+
+def test_constants_do_not_drift():
+    """A conserved quantity has no spread: not a division by zero, and no evidence of drift."""
+    assert drift_significance(np.ones(8), np.ones(8)) == 1.0
+
+
+def test_linear_trend():
+    times = np.sort(np.random.default_rng(7).random((3, 20)), axis=1)
+    np.testing.assert_allclose(linear_trend(times, 5 - 2 * times), -2, rtol=1e-12)
+    values = np.random.default_rng(8).random((3, 20))
+    slopes = [np.polyfit(t, v, 1)[0] for t, v in zip(times, values, strict=True)]
+    np.testing.assert_allclose(linear_trend(times, values), slopes, rtol=1e-9)
