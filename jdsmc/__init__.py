@@ -1,6 +1,6 @@
 """Direct simulation Monte Carlo of granular and molecular gases."""
 
-from . import scenarios, theory
+from . import scenarios, theory, transport
 from .faults import FaultError, NotSteadyError
 from .gas import ElasticHardSpheres, InelasticHardSpheres
 from .result import Estimate, Result, load
@@ -17,4 +17,5 @@ __all__ = [
     "run",
     "scenarios",
     "theory",
+    "transport",
 ]

@@ -1,13 +1,17 @@
 """Balances and limits of the homogeneous gas, sheared and cooling."""
 
+import jax.numpy as jnp
 import numpy as np
 import pytest
 
 import jdsmc
 from jdsmc import ElasticHardSpheres, InelasticHardSpheres
+from jdsmc.measure import pair_cubed
 from jdsmc.observables import MAXWELL_CUBED
+from jdsmc.options import Options
 from jdsmc.scenarios import UniformShear
 
+from .gases import maxwellian
 from .windows import relative_error, simulate, window, within
 
 SQRT_PI = np.sqrt(np.pi)
@@ -135,3 +139,21 @@ def test_own_scene_idea():
     assert not result.is_steady
     assert np.all(np.diff(temperature) > 0)
     assert result.series["time"].values[-1] > 3.0
+
+
+def test_sampled_pairs_are_not_partners_of_a_collision():
+    """A collision leaves its partners in one lane of two rows; those must not be the pairs sampled.
+
+    The worst case: rows matched as in the sample, partners identical. Lane by lane ⟨V12³⟩ would be
+    0; sampled rightly it is that of independent particles, within 4.5 errors (2% of one: the third
+    power of a Maxwellian relative speed has a standard deviation of 0.99 of its mean).
+    """
+    rows = tuple(
+        v.reshape(-1, 250)
+        for v in maxwellian(1, Options.checked(20_000, 0.05, "strang", "float32", 1, 1))
+    )
+    doubled = tuple(jnp.concatenate([v, v]) for v in rows)
+    expected = MAXWELL_CUBED * 0.5**1.5
+    error = 0.99 * expected / np.sqrt(20_000)
+    # neighbours share particles: (1, 2), (2, 3), ...: at most doubles the variance
+    assert abs(float(pair_cubed(doubled)) - expected) < 4.5 * np.sqrt(2) * error

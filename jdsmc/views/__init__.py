@@ -1,8 +1,14 @@
 """How results are shown to people: tables and pictures, one file a scene."""
 
-from . import uniform_shear
+from ..impulse import view as navier_stokes
+from . import heat_flux_force, homogeneous_cooling, uniform_shear
 
-_SCENES = {"UniformShear": uniform_shear}
+_SCENES = {
+    "UniformShear": uniform_shear,
+    "HomogeneousCooling": homogeneous_cooling,
+    "HeatFluxForce": heat_flux_force,
+    "NavierStokes": navier_stokes,
+}
 
 
 def _view(result):

@@ -1,9 +1,12 @@
 """Table and pictures of sheared gases, beside the BGK kinetic model."""
 
+from functools import partial
+
 import numpy as np
 
 from ..result import format_estimate
 from ..theory import bgk_shear_flow
+from . import common
 
 ROWS = {
     "temperature": "temperature T/T0",
@@ -27,12 +30,8 @@ NO_THEORY = ("relative_speed_cubed", "relative_speed_cubed_collisional", "collis
 def table(result) -> str:
     """Steady values: one column for a single gas, one row a point for a sweep."""
     steady = result.to_xarray().to_dataset()
-    if not result.is_steady:
-        return f"No steady values ({result.attrs['stopped']})."
-    dims = steady["temperature"].dims
-    lines = _single(steady, result.attrs) if not dims else _sweep(steady, dims)
-    ended = result.attrs.get("stopped")
-    return "\n".join([*lines, *([f"Ended because {ended}."] if ended else [])])
+    columns = {name: partial(common.estimate, name=name) for name in SWEEP_COLUMNS}
+    return common.table(result, lambda: _single(steady, result.attrs), lambda: columns)
 
 
 def _single(steady, attrs) -> list[str]:
@@ -45,35 +44,9 @@ def _single(steady, attrs) -> list[str]:
             lines.append(f"{label:40s} {format_estimate(value, error):>16s} {theory:>10s}")
     for index, value in enumerate(steady["speed_ratio"].values):
         error = float(steady["speed_ratio_error"][index])
-        label = f"particles with {_speed_class(index)}, over Maxwell"
+        label = f"particles with {common.speed_class(index)}, over Maxwell"
         lines.append(f"{label:40s} {format_estimate(float(value), error):>16s}")
-    lines.append(
-        f"steady from t = {float(steady['steady_from_time']):.1f} τ0, "
-        f"s = {float(steady['steady_from_collisions']):.0f} collisions per particle"
-    )
     return lines
-
-
-def _speed_class(index: int) -> str:
-    return ("C < 1", "1 < C < 2", "2 < C < 3", "C > 3")[index]
-
-
-def _sweep(steady, dims) -> list[str]:
-    header = [f"{name:>14s}" for name in dims] + [f"{name:>18s}" for name in SWEEP_COLUMNS]
-    lines = ["".join(header)]
-    for index in np.ndindex(*(steady.sizes[d] for d in dims)):
-        point = dict(zip(dims, index, strict=True))
-        cells = [_cell(steady[d].values[k]) for d, k in point.items()]
-        for name in SWEEP_COLUMNS:
-            value = float(steady[name].isel(point))
-            error = float(steady[f"{name}_error"].isel(point))
-            cells.append(f"{format_estimate(value, error):>18s}")
-        lines.append("".join(cells))
-    return lines
-
-
-def _cell(value) -> str:
-    return f"{value:>14s}" if isinstance(value, str) else f"{value:14.4g}"
 
 
 def _model(restitution, shear_rate) -> dict:
@@ -103,7 +76,7 @@ def _draw_series(result):
     dims = series["temperature"].dims[:-1]
     for index in np.ndindex(*(series.sizes[d] for d in dims)):
         point = dict(zip(dims, index, strict=True))
-        label = ", ".join(f"{d} = {_short(series[d].values[k])}" for d, k in point.items())
+        label = ", ".join(f"{d} = {common.short(series[d].values[k])}" for d, k in point.items())
         _curve(top, series.isel(point), "temperature", label or "T/T0")
         for name, short in (
             ("shear_stress", "-Pxy/nT"),
@@ -125,17 +98,9 @@ def _draw_series(result):
     return figure
 
 
-def _short(value) -> str:
-    return value if isinstance(value, str) else f"{value:g}"
-
-
 def _curve(panel, series, name: str, label: str) -> None:
-    """A line with a band of two standard errors."""
     s, value, error = (series[n].values for n in ("collisions", name, f"{name}_error"))
-    (line,) = panel.plot(s, value, lw=1.2, label=label)
-    panel.fill_between(
-        s, value - 2 * error, value + 2 * error, color=line.get_color(), alpha=0.25, lw=0
-    )
+    common.curve(panel, s, value, error, label)
 
 
 def _model_curves(top, bottom, series, attrs) -> None:
@@ -194,7 +159,9 @@ def _draw_sweep(result):
                 ms=4,
                 mfc="none",
                 capsize=2,
-                label=", ".join(f"{d} {_short(steady[d].values[k])}" for d, k in point.items())
+                label=", ".join(
+                    f"{d} {common.short(steady[d].values[k])}" for d, k in point.items()
+                )
                 or "jdsmc",
             )
         if name in model:
