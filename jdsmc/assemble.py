@@ -219,6 +219,7 @@ def provenance(scene, options: Options) -> dict:
         "gas_model": type(scene.gas).__name__,
         **numbers,
         **names,
+        **({"option_scheme": scene.scheme} if hasattr(scene, "scheme") else {}),
         "n_particles": options.plan.rows * options.plan.lanes,
         "time_step": options.time_step,
         "steps_per_record": options.steps,

@@ -342,7 +342,8 @@ def test_ctrl_c(monkeypatch, capsys):
     result = jdsmc.load("x.h5")
     assert list(result.to_xarray()["gas"].values) == ["ihs"]
     assert result.attrs["stopped"].startswith("interrupted")
-    assert result.series.sizes["sample"] == 3 * 8
+    # three chunks of eight records, as far as the clocks of all realizations have come
+    assert 2 * 8 < result.series.sizes["sample"] <= 3 * 8
 
 
 def test_fault_in_the_second_gas(monkeypatch, capsys):

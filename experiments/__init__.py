@@ -1,0 +1,1 @@
+"""Reproductions of published results, one folder a paper: `python -m experiments.<name>`."""

@@ -1,0 +1,71 @@
+"""Run everything: `python -m experiments.uniform_shear_flow [--full] [--out FOLDER] [--fresh]`."""
+
+import json
+import shutil
+import time
+from pathlib import Path
+
+import matplotlib as mpl
+import tyro
+
+from . import report, symmetry
+from .data import Measurements
+from .figures import draw_all
+from .store import obtain, obtain_steady, program
+from .systems import FULL, SMALL, Size, main_cases, study_cases
+
+RESULTS = Path(__file__).parent / "results"
+
+
+def main(full: bool = False, out: Path | None = None, fresh: bool = False):
+    """Reproduce the homogeneous part of Astillero and Santos (2005).
+
+    Args:
+        full: all ten restitutions, far more statistics and the whole convergence study.
+        out: folder for simulations (*.h5, reused if they are what is asked for), figures and
+            table.md; by default output/uniform_shear_flow/small or full.
+        fresh: run every simulation again.
+    """
+    mpl.use("Agg")
+    start = time.perf_counter()
+    size = FULL if full else SMALL
+    folder = out or Path("output/uniform_shear_flow") / size.name
+    folder.mkdir(parents=True, exist_ok=True)
+    data = measure(size, folder, fresh)
+    study = [obtain_steady(case, folder, fresh) for case in study_cases(size)]
+    figures = draw_all(data, study, folder)
+    table = report.write(data, study, size, folder, fresh)
+    keep([table, *figures], size)
+    print(f"{table} and {len(figures)} figures in {time.perf_counter() - start:.0f} s")
+
+
+def measure(size: Size, folder: Path, fresh: bool) -> Measurements:
+    """All simulations but the convergence study, and the check of symmetry."""
+    cases = {case.name: case for case in main_cases(size)}
+    results = {name: obtain(case, folder, fresh) for name, case in cases.items()}
+    return Measurements(cases, results, _symmetry(size, folder, fresh))
+
+
+def _symmetry(size: Size, folder: Path, fresh: bool) -> dict:
+    path = folder / "symmetry.json"
+    if path.exists() and not fresh:
+        kept = json.loads(path.read_text())
+        if (kept["options"], kept["program"]) == (size.symmetry, program()):
+            return kept["values"]
+    print("symmetry: running", flush=True)
+    values = symmetry.check(**size.symmetry)
+    kept = {"options": size.symmetry, "program": program(), "values": values}
+    path.write_text(json.dumps(kept, indent=1))
+    return values
+
+
+def keep(paths: list[Path], size: Size) -> None:
+    """Copy table and figures beside the code: results/ (small), results/full/ (full)."""
+    folder = RESULTS if size.name == "small" else RESULTS / size.name
+    folder.mkdir(parents=True, exist_ok=True)
+    for path in paths:
+        shutil.copy(path, folder / path.name)
+
+
+if __name__ == "__main__":
+    tyro.cli(main)
