@@ -15,6 +15,7 @@ wave the weights of f, Q(f, f) and Q(Q, f) are right if and only if κ² = 2 θ1
 κ = 2 s1 θ1 + 2 s2 θ2 (s1, s2: rows of a wave over all rows).
 """
 
+import math
 from typing import NamedTuple
 
 import jax.numpy as jnp
@@ -40,7 +41,7 @@ class PairPlan(NamedTuple):
 
     def first_hits(self) -> float:
         """κ_c, from 2 first/rows = κ_c - κ_c²: the κ that uses every slot of wave 1."""
-        return 0.5 - np.sqrt(max(0.0, 0.25 - 2.0 * self.first / self.rows))
+        return 0.5 - math.sqrt(max(0.0, 0.25 - 2.0 * self.first / self.rows))
 
     def largest_hits(self) -> float:
         """The κ at which the share of a wave reaches one."""

@@ -16,6 +16,9 @@ Rows = Float[Array, "rows lanes"]
 Velocity = tuple[Rows, ...]
 """Velocity components in units of v0, one array each (two or three)."""
 
+Copies = tuple[Float[Array, "copies rows lanes"], ...]
+"""Velocity components of several copies of a gas."""
+
 TakenRows = tuple[Float[Array, "_ lanes"], ...]
 """Velocity components of some of the rows."""
 

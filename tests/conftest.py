@@ -1,6 +1,7 @@
 """Shapes and types of every annotated function are checked at run time, here only.
 
-All of jdsmc but `theory`, plain NumPy on anything array-like, which beartype cannot tell.
+All of jdsmc but `theory`, plain NumPy on anything array-like, which beartype cannot tell, and
+`impulse`, whose records of the device are used again for those of the host.
 """
 
 import importlib.util
@@ -13,7 +14,7 @@ assert _SPEC is not None
 _CHECKED = [
     f"jdsmc.{module.name}"
     for module in pkgutil.iter_modules(_SPEC.submodule_search_locations)
-    if module.name != "theory"
+    if module.name not in ("theory", "impulse")
 ]
 with install_import_hook(_CHECKED, "beartype.beartype"):
     import jdsmc  # noqa: F401

@@ -298,9 +298,11 @@ def test_dtypes(x64):
         floating = [x.dtype for x in jax.tree.leaves(shapes) if x.dtype.kind == "f"]
         assert len(floating) > 10 and set(floating) == {jnp.dtype(dtype)}
     double = simulate(duration=1.0, dtype="float64").series
+    common = min(double.sizes["sample"], single.sizes["sample"])  # the slowest clock ends either
     for name in ("temperature", "shear_stress"):
-        assert np.any(double[name] != single[name])
-        np.testing.assert_allclose(double[name], single[name], rtol=1e-4, atol=1e-4)
+        ours, theirs = (run[name].values[:common] for run in (double, single))
+        assert np.any(ours != theirs)
+        np.testing.assert_allclose(ours, theirs, rtol=1e-4, atol=1e-4)
 
 
 def test_float64_needs_x64():
@@ -384,7 +386,8 @@ def test_ctrl_c(monkeypatch):
     before = signal.getsignal(signal.SIGINT)
     result = simulate(collisions=1e6)
     assert result.attrs["stopped"].startswith("interrupted after")
-    assert result.series.sizes["sample"] == 3 * 8
+    # three chunks of eight records, as far as the clocks of all realizations have come
+    assert 2 * 8 < result.series.sizes["sample"] <= 3 * 8
     assert signal.getsignal(signal.SIGINT) is before
     with pytest.raises(KeyboardInterrupt):
         signal.raise_signal(signal.SIGINT)

@@ -11,7 +11,7 @@ from jaxtyping import Array, Float
 from ..drive import mean
 from ..measure import centred
 from ..state import HomogeneousState
-from ..types import Scalar, Velocity
+from ..types import Copies, Scalar, Velocity
 
 FIELDS = ("modified_conductivity", "conductivity", "viscosity")
 """The coefficient that each field gives, in the order of `fields`."""
@@ -36,7 +36,7 @@ def fields(velocity: Velocity) -> list[Velocity]:
     return [tuple(modified), tuple(full), shear]
 
 
-def kicked(velocity: Velocity, strength: Scalar) -> Velocity:
+def kicked(velocity: Velocity, strength: Scalar) -> Copies:
     """The six copies of a sample, stacked along a new first axis, each with mean velocity zero."""
     copies = [
         centred(tuple(v + sign * strength * g for v, g in zip(velocity, field, strict=True)))

@@ -26,7 +26,7 @@ from ..pace import pace
 from ..pairs import remix
 from ..scenarios.homogeneous_cooling import check_without_drag
 from ..state import HomogeneousState, next_majorant
-from ..types import Key, Physical, Scalar, Velocity
+from ..types import Copies, Key, Physical, Scalar, Velocity
 from .kicks import COPIES, fluxes, kicked
 
 WARM_UP, GAP = 20.0, 4.0
@@ -96,7 +96,7 @@ class NavierStokes(eqx.Module):
         mixed = tuple(map(remix, state.velocity))
         return HomogeneousState(mixed, state.majorant), Collisions.over(tallies)
 
-    def follow(self, key: Key, copies: Velocity, majorant: Scalar, options: Options):
+    def follow(self, key: Key, copies: Copies, majorant: Scalar, options: Options):
         """Fluxes, clocks and ln F of all copies, which see the same random numbers.
 
         They share the majorant and the time step too, so that they make the same collisions for as
