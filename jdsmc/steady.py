@@ -55,7 +55,7 @@ class SteadyTracker:
     def _grown(self, history: History, point: int, collisions: float) -> float:
         first = min(self.start[point], history.length - 1)
         began = np.mean(history["collisions"][point, :, first])
-        return began + GROWTH * max(collisions - began, FIRST_TEST)
+        return float(began + GROWTH * max(collisions - began, FIRST_TEST))
 
     def confirm(self, history: History, point: int) -> bool:
         """True if the measurement shows no drift; otherwise its first quarter is dropped."""
