@@ -10,6 +10,7 @@ from jax import lax
 from jdsmc import InelasticHardSpheres, random
 from jdsmc.collide import Collisions, hits_per_particle
 from jdsmc.options import STEPS_PER_RECORD, TIME_STEP, Options
+from jdsmc.pace import pace
 from jdsmc.scenarios import UniformShear
 from jdsmc.state import HomogeneousState
 
@@ -77,9 +78,7 @@ def _steps(scene, keys, states, first, steps: int, options: Options):
 
     def one_gas(key, state):
         temperature = HomogeneousState.temperature_of(state.velocity)
-        majorant = state.majorant * jnp.sqrt(2.0 * temperature)
-        longest = options.plan.largest_hits() * 2.0**0.5 / majorant
-        duration = jnp.minimum(scene.time_step(temperature, options), longest)
+        majorant, duration = pace(temperature, state.majorant, scene.shear_rate, options)
         key = random.fold_in(key, SETTLING_RECORDS + 1)
 
         def one_step(velocity, count):
