@@ -6,6 +6,7 @@ import jax.numpy as jnp
 from . import random
 from .collide import Collisions
 from .drive import mean
+from .measure import centred
 from .options import Options
 from .types import Key, Scalar, Velocity
 
@@ -44,6 +45,13 @@ class HomogeneousState(eqx.Module):
     def temperature_of(velocity: Velocity) -> Scalar:
         """T = m⟨V²⟩/d."""
         return mean(sum(v * v for v in velocity)) / len(velocity)
+
+
+def held_at(velocity: Velocity, temperature) -> tuple[Velocity, Scalar]:
+    """Velocities of mean zero scaled to a temperature, and the factor they were scaled with."""
+    velocity = centred(velocity)
+    factor = jnp.sqrt(temperature / HomogeneousState.temperature_of(velocity))
+    return tuple(factor * v for v in velocity), factor
 
 
 def next_majorant(reduced: Scalar, majorant: Scalar, tally: Collisions) -> Scalar:

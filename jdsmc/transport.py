@@ -9,7 +9,7 @@ from dataclasses import replace
 from math import ceil
 
 import numpy as np
-from tqdm.auto import tqdm
+from tqdm import tqdm
 
 from . import check, faults, grid
 from .engine import Engine

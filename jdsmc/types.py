@@ -2,7 +2,7 @@
 
 from typing import Any, NamedTuple
 
-from jaxtyping import Array, Bool, Float, UInt32
+from jaxtyping import Array, Float, UInt32
 
 Physical = Any
 """A physical number of a gas or scene: a float64 array on the host, traced in a step."""
@@ -22,7 +22,6 @@ Copies = tuple[Float[Array, "copies rows lanes"], ...]
 TakenRows = tuple[Float[Array, "_ lanes"], ...]
 """Velocity components of some of the rows."""
 
-Accepted = Bool[Array, "*shape"]
 Word = UInt32[Array, "..."]
 
 

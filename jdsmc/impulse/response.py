@@ -20,13 +20,12 @@ from .. import check, random
 from ..collide import Collisions, collide
 from ..drive import mean
 from ..gas import INITIAL_TEMPERATURE, AbstractGas
-from ..measure import centred
 from ..options import Options
 from ..pace import pace
 from ..pairs import remix
 from ..scenarios.homogeneous_cooling import check_without_drag
-from ..state import HomogeneousState, next_majorant
-from ..types import Copies, Key, Physical, Scalar, Velocity
+from ..state import HomogeneousState, held_at, next_majorant
+from ..types import Copies, Key, Physical, Scalar
 from .kicks import COPIES, fluxes, kicked
 
 WARM_UP, GAP = 20.0, 4.0
@@ -152,10 +151,3 @@ class NavierStokes(eqx.Module):
     def faults(self, record: KickRecord) -> str:
         """Nothing can fail here that does not fail in every scene."""
         return ""
-
-
-def held_at(velocity: Velocity, temperature: Scalar) -> tuple[Velocity, Scalar]:
-    """Velocities of mean zero scaled to a temperature, and the factor they were scaled with."""
-    velocity = centred(velocity)
-    factor = jnp.sqrt(temperature / HomogeneousState.temperature_of(velocity))
-    return tuple(factor * v for v in velocity), factor

@@ -31,9 +31,9 @@ from ..measure import centred
 from ..options import Options
 from ..pace import make_steps
 from ..pairs import remix
-from ..state import HomogeneousState
+from ..state import HomogeneousState, held_at
 from ..types import Key, Physical, Scalar, Velocity
-from .homogeneous_cooling import check_without_drag, scaled_to_start, slowed_rates
+from .homogeneous_cooling import check_without_drag, slowed_rates
 
 
 class HeatFluxForce(eqx.Module):
@@ -89,7 +89,7 @@ class HeatFluxForce(eqx.Module):
             velocity, tally = collide(key, self.gas, options.plan, velocity, majorant, duration)
             strength = (0.5 * self.field * duration) * velocity[0]
             velocity = tuple(v - strength * v for v in velocity)
-            velocity, _ = scaled_to_start(velocity, jnp.zeros_like(majorant))
+            velocity, _ = held_at(velocity, INITIAL_TEMPERATURE)
             return velocity, tally, jnp.max(-strength)
         velocity, before = self.flow(velocity, 0.5 * duration)
         velocity, tally = collide(key, self.gas, options.plan, velocity, majorant, duration)
@@ -98,7 +98,7 @@ class HeatFluxForce(eqx.Module):
 
     def advance(self, key: Key, state: HomogeneousState, options: Options):
         """One record: scale to T0, measure, then make `options.steps` steps."""
-        velocity, _ = scaled_to_start(state.velocity, jnp.zeros_like(state.majorant))
+        velocity, _ = held_at(state.velocity, INITIAL_TEMPERATURE)
         sampled = heat_moments(velocity)
 
         def step(key, velocity, majorant, duration):

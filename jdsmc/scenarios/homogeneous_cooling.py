@@ -15,12 +15,12 @@ from jaxtyping import Array, Float
 
 from ..collide import collide
 from ..gas import INITIAL_TEMPERATURE, AbstractGas
-from ..measure import Distributions, Record, centred, distributions, moments
+from ..measure import Distributions, Record, distributions, moments
 from ..observables import isotropic, particle_means
 from ..options import Options
 from ..pace import make_steps
 from ..pairs import remix
-from ..state import HomogeneousState
+from ..state import HomogeneousState, held_at
 from ..types import Key, Scalar, Velocity
 
 
@@ -112,9 +112,8 @@ class HomogeneousCooling(eqx.Module):
 
 def scaled_to_start(velocity: Velocity, log_scale: Scalar) -> tuple[Velocity, Scalar]:
     """Velocities with mean zero and temperature T0, and the logarithm of their scale."""
-    velocity = centred(velocity)
-    factor = jnp.sqrt(INITIAL_TEMPERATURE / HomogeneousState.temperature_of(velocity))
-    return tuple(factor * v for v in velocity), log_scale - jnp.log(factor)
+    velocity, factor = held_at(velocity, INITIAL_TEMPERATURE)
+    return velocity, log_scale - jnp.log(factor)
 
 
 def slowed_rates(after: Float[Array, " steps"]) -> Float[Array, "2"]:
