@@ -2,7 +2,7 @@
 
 from . import scenarios, theory, transport
 from .faults import FaultError, NotSteadyError
-from .gas import ElasticHardSpheres, InelasticHardSpheres
+from .gas import ElasticHardSpheres, InelasticHardSpheres, MaxwellMolecules
 from .result import Estimate, Result, load
 from .run import run
 
@@ -11,6 +11,7 @@ __all__ = [
     "Estimate",
     "FaultError",
     "InelasticHardSpheres",
+    "MaxwellMolecules",
     "NotSteadyError",
     "Result",
     "load",

@@ -45,6 +45,16 @@ DESCRIPTIONS = {
     "conductivity_ratio": ("modified thermal conductivity κ'/κ0", "1"),
     "sonine": ("Sonine coefficients b'_k, eq. (3.10)", "1"),
     "sonine_marginal": ("Sonine coefficients b'_k, eq. (3.12)", "1"),
+    "density": ("density n/n̄", "1"),
+    "pressure": ("pressure p", "n̄ m v0²"),
+    "heat_flux": ("heat flux q_z", "n̄ m v0³"),
+    "mean_heat_flux": ("heat flux averaged over the slab", "n̄ m v0³"),
+    "heat_flux_cold_wall": ("heat flux from the energy exchanged at the cold wall", "n̄ m v0³"),
+    "heat_flux_hot_wall": ("heat flux from the energy exchanged at the hot wall", "n̄ m v0³"),
+    "kappa_star": ("κ* = q/q_NS", "1"),
+    "reduced_gradient": ("ε = λ |∂ ln T/∂z|, λ of eq. (5)", "1"),
+    "reduced_gravity": ("g* = λ g/(2T/m), λ of eq. (5)", "1"),
+    "mean_free_paths": ("mean free paths from the cold wall", "1"),
     "marginal_x": ("g_x^(+)(C_x)", "1"),
     "marginal_y": ("g_y^(+)(C_y)", "1"),
     "speed": ("F(C)", "1"),
@@ -64,15 +74,19 @@ def assemble(scene, options: Options, history: History, tracker, attrs: dict) ->
     if tracker is not None and history.length and tracker.all_measuring:
         steady = _steady(flat, history, tracker, options)
         if steady is not None:
-            root = _dataset(steady, shape, dims, coords)
+            root = _dataset(flat, steady, shape, dims, coords)
             root["steady_from_time"] = dims, _at_start(history, "time", tracker).reshape(shape)
             root["steady_from_collisions"] = (
                 dims,
                 _at_start(history, "collisions", tracker).reshape(shape),
             )
-            groups["/distribution"] = _distribution(
-                scene.densities, history, tracker, options, (shape, dims, coords)
-            )
+            labels = (shape, dims, coords)
+            if scene.densities:
+                groups["/distribution"] = _distribution(
+                    scene.densities, history, tracker, options, labels
+                )
+            if hasattr(scene, "axis"):
+                groups["/realizations"] = _realizations(flat, history, tracker, labels)
     root.attrs = provenance(scene, options) | attrs
     groups["/"] = root
     return Result(xr.DataTree.from_dict(groups))
@@ -90,6 +104,8 @@ def steady_estimates(scene, history: History, point: int, edges) -> tuple[dict, 
     one = grid.take(scene, point)
 
     def observables(averages):
+        if "T1_steps" not in averages:  # a gas in space has no one temperature
+            return one.observables(averages)
         restitution = getattr(one.gas, "restitution", 1.0)
         factor = float(one.gas.local_collision_factor())
         return {
@@ -119,18 +135,20 @@ def _series(flat, shape, dims, coords, history: History) -> xr.Dataset:
     factor = np.asarray(column.gas.local_collision_factor(), dtype=float)
 
     def observables(averages):
-        with np.errstate(divide="ignore", invalid="ignore"):
-            ratio = averages["collisions"] / (factor * averages["local_collisions"])
-        return {
+        observed = {
             **column.observables(averages),
             **column.evolution(averages),
             "collisions": averages["collisions"],
-            "collision_ratio": ratio,
         }
+        if "local_collisions" in averages:
+            with np.errstate(divide="ignore", invalid="ignore"):
+                ratio = averages["collisions"] / (factor * averages["local_collisions"])
+            observed["collision_ratio"] = ratio
+        return observed
 
     value, error = jackknife(means, observables, axis=1)
     pairs = {name: (value[name], error[name]) for name in value}
-    data = _dataset(pairs, shape, (*dims, "sample"), coords)
+    data = _dataset(flat, pairs, shape, (*dims, "sample"), coords)
     return data.assign_coords(
         sample=np.arange(time.shape[1]),
         time=((*dims, "sample"), time.reshape(*shape, -1), _described("time")),
@@ -172,17 +190,42 @@ EXTRA_DIMENSIONS = {
 EXTRA_COORDINATES = {"speed_class": np.arange(4), "sonine_order": np.arange(1, 4)}
 
 
-def _dataset(pairs, shape, dims, coords) -> xr.Dataset:
+def _realizations(flat, history: History, tracker: SteadyTracker, labels) -> xr.Dataset:
+    """Steady averages of every realization: what adds up, for error bars of anything else."""
+    shape, dims, coords = labels
+    means = [history.point(p, first, history.length) for p, first in enumerate(tracker.start)]
+    data = xr.Dataset(coords=coords)
+    for name in flat.additive:
+        array = np.array([point[name] for point in means])
+        extra = (flat.axis,) if name in flat.profiles else ()
+        data[name] = (
+            (*dims, "realization", *extra),
+            array.reshape(shape + array.shape[1:]),
+            _described(name),
+        )
+    return data.assign_coords(_axis_coordinate(flat))
+
+
+def _axis_coordinate(flat) -> dict:
+    """Centres of the layers: in λ0, or as a share of the length if that is swept."""
+    centres = (np.arange(flat.layers) + 0.5) / flat.layers
+    one_length = np.ptp(flat.length) == 0
+    values = centres * flat.length[0] if one_length else centres
+    unit = "λ0" if one_length else "length of the slab"
+    return {flat.axis: (flat.axis, values, {"long_name": f"position {flat.axis}", "units": unit})}
+
+
+def _dataset(flat, pairs, shape, dims, coords) -> xr.Dataset:
     """Variables `name` and `name_error` from arrays whose first axis is the sweep point."""
     data = xr.Dataset(coords=coords)
+    profiles = getattr(flat, "profiles", ())
     for name, arrays in pairs.items():
+        extra = (flat.axis,) if name in profiles else EXTRA_DIMENSIONS.get(name, ())
         for suffix, array in zip(("", "_error"), arrays, strict=True):
             full = array.reshape(shape + array.shape[1:])
-            data[name + suffix] = (
-                (*dims, *EXTRA_DIMENSIONS.get(name, ())),
-                full,
-                _described(name + suffix),
-            )
+            data[name + suffix] = ((*dims, *extra), full, _described(name + suffix))
+    if profiles:
+        data = data.assign_coords(_axis_coordinate(flat))
     return data.assign_coords({d: c for d, c in EXTRA_COORDINATES.items() if d in data.dims})
 
 
@@ -219,8 +262,9 @@ def provenance(scene, options: Options) -> dict:
         "gas_model": type(scene.gas).__name__,
         **numbers,
         **names,
-        **({"option_scheme": scene.scheme} if hasattr(scene, "scheme") else {}),
-        "n_particles": options.plan.rows * options.plan.lanes,
+        **{f"option_{n}": getattr(scene, n) for n in ("scheme", "wall") if hasattr(scene, n)},
+        **({"layers": scene.layers} if hasattr(scene, "layers") else {}),
+        "n_particles": options.n_particles,
         "time_step": options.time_step,
         "steps_per_record": options.steps,
         "splitting": options.splitting,

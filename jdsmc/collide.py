@@ -9,7 +9,7 @@ from . import random
 from .gas import AbstractGas
 from .pairs import PairPlan, put_rows, take_rows, thinning
 from .scatter import elastic_outgoing
-from .types import Key, Scalar, TakenRows, Velocity
+from .types import Key, Particles, Scalar, Velocity
 
 
 class Collisions(eqx.Module):
@@ -66,18 +66,21 @@ def collide(
     hits = hits_per_particle(plan, majorant, duration)
     share_first, share_second = thinning(plan, hits)
     taken, left, right, fresh = take_rows(key, plan, velocity)
-    left, right, tally = _wave(random.fold_in(key, 2), gas, left, right, majorant / share_first)
+    left, right, tally, _ = meet(random.fold_in(key, 2), gas, left, right, share_first / majorant)
     again = tuple(v[: plan.second] for v in left)
-    again, fresh, later = _wave(random.fold_in(key, 3), gas, again, fresh, majorant / share_second)
+    again, fresh, later, _ = meet(
+        random.fold_in(key, 3), gas, again, fresh, share_second / majorant
+    )
     left = tuple(v.at[: plan.second].set(w) for v, w in zip(left, again, strict=True))
     missed = jnp.maximum(share_first - 1.0, 0.0) + jnp.maximum(share_second - 1.0, 0.0)
     tally = eqx.tree_at(lambda t: t.overflow, tally.then(later), missed * plan.first * plan.lanes)
     return put_rows(velocity, taken, left, right, fresh), tally
 
 
-def _wave(key: Key, gas: AbstractGas, left: TakenRows, right: TakenRows, bound: Scalar):
-    """Disjoint pairs, each accepted with probability rate/bound.
+def meet(key: Key, gas: AbstractGas, left: Particles, right: Particles, factor):
+    """Disjoint pairs, each accepted with probability rate x factor (one number, or one a pair).
 
+    Returns: the two sides after the collisions, their tally, and the largest probability.
     The barriers keep XLA from computing the random numbers and the transfer again for each
     component and each sum (2 to 3 times slower).
     """
@@ -85,7 +88,7 @@ def _wave(key: Key, gas: AbstractGas, left: TakenRows, right: TakenRows, bound: 
     uniforms = random.three_uniforms(lax.optimization_barrier(random.bits(key, shape)), dtype)
     relative = tuple(a - b for a, b in zip(left, right, strict=True))
     speed = jnp.sqrt(sum(g * g for g in relative))
-    probability = gas.rate(speed) / bound
+    probability = gas.rate(speed) * factor
     accepted = uniforms[2] < probability
     outgoing = elastic_outgoing(relative, speed, uniforms[0], uniforms[1])
     transfer = tuple(jnp.where(accepted, t, 0.0) for t in gas.momentum_transfer(relative, outgoing))
@@ -102,7 +105,7 @@ def _wave(key: Key, gas: AbstractGas, left: TakenRows, right: TakenRows, bound: 
     )
     left = tuple(v - t for v, t in zip(left, transfer, strict=True))
     right = tuple(v + t for v, t in zip(right, transfer, strict=True))
-    return left, right, tally
+    return left, right, tally, jnp.max(probability)
 
 
 def _total(values) -> Scalar:

@@ -25,9 +25,11 @@ class AbstractGas(eqx.Module):
     `momentum_transfer` maps the relative velocity before and after an *elastic* collision of the
     same geometry to the momentum the first particle loses; `drag_coefficient` c makes the
     friction ζ = c √(2T), zero for none. `frictional` is static: a gas without drag pays nothing.
+    `viscosity_exponent` is ω in η, κ ∝ T^ω.
     """
 
     frictional: eqx.AbstractClassVar[bool]
+    viscosity_exponent: eqx.AbstractClassVar[float]
 
     @property
     @abstractmethod
@@ -64,6 +66,7 @@ class InelasticHardSpheres(AbstractGas):
 
     restitution: Physical = eqx.field(converter=check.physical)
     frictional: ClassVar[bool] = False
+    viscosity_exponent: ClassVar[float] = 0.5
 
     def __check_init__(self):
         check.in_range("restitution", self.restitution, 0.0, 1.0, low_included=False)
@@ -113,6 +116,7 @@ class ElasticHardSpheres(AbstractGas):
     )
     drag: Literal["local", "measured"] = eqx.field(default="local", static=True)
     frictional: ClassVar[bool] = True
+    viscosity_exponent: ClassVar[float] = 0.5
 
     def __check_init__(self):
         check.in_range("restitution", self.restitution, 0.0, 1.0, low_included=False)
@@ -143,3 +147,41 @@ class ElasticHardSpheres(AbstractGas):
     def drag_coefficient(self):
         """ζ0 = 2(1-α²)/(3√π τ) with τ = 1/√(2T): eq. (2.16)."""
         return (2.0 / (3.0 * math.sqrt(math.pi))) * (1.0 - self.restitution**2)
+
+
+MAXWELL_RATE = 16.0 * math.sqrt(2.0 / math.pi) / 5.0
+"""Pair rate of Maxwell molecules, as a relative speed of hard spheres: their viscosity at T0 is the
+first approximation for hard spheres. Isotropic scattering halves the stress of two particles a
+collision, so that nT/η = n MAXWELL_RATE/(2√2), to be 8/(5√π)."""
+
+
+class MaxwellMolecules(AbstractGas):
+    """Elastic molecules that collide at a rate independent of their relative speed, isotropically.
+
+    Viscosity and conductivity are proportional to T, and those of hard spheres (first
+    approximation) at T0. Moments of their Boltzmann equation form closed hierarchies, so that exact
+    solutions are known: what hard spheres can be checked against only by expansions.
+    """
+
+    frictional: ClassVar[bool] = False
+    viscosity_exponent: ClassVar[float] = 1.0
+
+    @property
+    def measured_drag(self) -> bool:
+        return False
+
+    def is_dissipative(self) -> bool:
+        return False
+
+    def rate(self, speed):
+        return jnp.full_like(speed, MAXWELL_RATE)
+
+    def momentum_transfer(self, relative_velocity, outgoing):
+        return tuple(0.5 * (g - e) for g, e in zip(relative_velocity, outgoing, strict=True))
+
+    def drag_coefficient(self):
+        return jnp.zeros(())
+
+    def local_collision_factor(self):
+        """That of T0, where hard spheres have a mean relative speed of √(16 T0/π)."""
+        return jnp.asarray(MAXWELL_RATE / math.sqrt(8.0 / math.pi))

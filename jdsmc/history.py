@@ -122,10 +122,11 @@ class History:
         common = np.mean(time, axis=1)
         reached = np.sum(common <= np.min(time[:, :, -1], axis=1, keepdims=True), axis=1)
         common = common[:, : np.min(reached)]
-        scale = self["scale"] if "scale" in self._columns else 1.0
-        thermal = np.sqrt(2.0 * self["temperature"]) * scale
         series = {name: self[name] for name in self.names} | {"collisions": self["collisions"]}
-        series["local_collisions"] = _integral(time, thermal) / np.sqrt(np.pi)
+        if "temperature" in self._columns:
+            scale = self["scale"] if "scale" in self._columns else 1.0
+            thermal = np.sqrt(2.0 * self["temperature"]) * scale
+            series["local_collisions"] = _integral(time, thermal) / np.sqrt(np.pi)
         out = {name: np.empty_like(v[:, :, : common.shape[1]]) for name, v in series.items()}
         for p, r in np.ndindex(time.shape[:2]):
             for name, values in series.items():

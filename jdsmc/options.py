@@ -31,6 +31,11 @@ class Options:
     records: int
     dtype: jnp.dtype
 
+    @property
+    def n_particles(self) -> int:
+        """Particles of one gas."""
+        return self.plan.rows * self.plan.lanes
+
     @staticmethod
     def checked(
         n_particles: int,
@@ -39,8 +44,12 @@ class Options:
         dtype: str,
         steps: int,
         records: int,
+        in_space: bool = False,
     ) -> "Options":
-        """Check the options of `run` and lay out the particles; raises ValueError or TypeError."""
+        """Check the options of `run` and lay out the particles; raises ValueError or TypeError.
+
+        A gas in space is one row: its pairs are found by place, not by row.
+        """
         check.at_least("n_particles", n_particles, 64)
         check.scalar("time_step", time_step, 0.0, 1.0)
         check.one_of("splitting", splitting, ("strang", "lie"))
@@ -49,5 +58,6 @@ class Options:
             raise ValueError(
                 'dtype = "float64" needs jax.config.update("jax_enable_x64", True) before the run.'
             )
-        plan = plan_pairs(n_particles, float(time_step))
+        one_row = PairPlan(rows=1, lanes=int(n_particles), first=0, second=0)
+        plan = one_row if in_space else plan_pairs(n_particles, float(time_step))
         return Options(plan, float(time_step), splitting, steps, records, jnp.dtype(dtype))

@@ -15,7 +15,7 @@ from .faults import FaultError, NotSteadyError
 from .history import History
 from .options import STEPS_PER_RECORD, TIME_STEP, Options
 from .result import Result
-from .steady import SteadyTracker
+from .steady import FIRST_TEST, SteadyTracker
 
 
 def run(
@@ -64,11 +64,13 @@ def run(
             measured until then, or None.
     Ctrl-C ends the run after the present chunk and returns what was measured.
     """
-    options = Options.checked(
-        n_particles, time_step, splitting, dtype, steps_per_record, _records(steps_per_record)
-    )
     if not hasattr(scene, "steady_observables"):
         raise TypeError(f"scene must be one of jdsmc.scenarios, got {scene!r}.")
+    options = Options.checked(
+        *(n_particles, time_step, splitting, dtype, steps_per_record),
+        records=_records(steps_per_record, getattr(scene, "samples_per_record", 1)),
+        in_space=getattr(scene, "in_space", False),
+    )
     limits = Limits(
         scene, duration, collisions, observable or scene.default_observable, rtol, budget
     )
@@ -103,10 +105,10 @@ def run(
     return result(stopped)
 
 
-def _records(steps: int) -> int:
+def _records(steps: int, samples: int) -> int:
     """Records per chunk: about 64 steps between two looks at the clock."""
     check.at_least("steps_per_record", steps, 1)
-    return max(1, 64 // steps)
+    return max(1, 64 // (steps * samples))
 
 
 class Limits:
@@ -150,10 +152,9 @@ class Session:
 
     def __init__(self, scene, options: Options, engine: Engine, limits: Limits):
         self.scene, self.options, self.engine, self.limits = scene, options, engine, limits
-        self.history = History(
-            options.plan.rows * options.plan.lanes, options.steps, scene.averages
-        )
-        self.tracker = SteadyTracker(engine.shape[0], scene.monitored)
+        self.history = History(options.n_particles, options.steps, scene.averages)
+        warm_up = scene.shortest_warm_up() if hasattr(scene, "shortest_warm_up") else FIRST_TEST
+        self.tracker = SteadyTracker(engine.shape[0], scene.monitored, warm_up)
         self.precision = np.inf
         self.failed = False
         self._next_look = 0.0

@@ -25,10 +25,10 @@ class SteadyTracker:
     test is across realizations, which share no drift by chance.
     """
 
-    def __init__(self, points: int, monitored: tuple[str, ...]):
+    def __init__(self, points: int, monitored: tuple[str, ...], first_test: float = FIRST_TEST):
         self.monitored = monitored
         self.start = np.full(points, -1)
-        self._next_test = np.full(points, FIRST_TEST)
+        self._next_test = np.full(points, max(FIRST_TEST, first_test))
 
     def update(self, history: History) -> None:
         """Test every point that is due."""

@@ -2,7 +2,7 @@
 
 from typing import Any, NamedTuple
 
-from jaxtyping import Array, Float, UInt32
+from jaxtyping import Array, Float, Int32, UInt32
 
 Physical = Any
 """A physical number of a gas or scene: a float64 array on the host, traced in a step."""
@@ -21,6 +21,21 @@ Copies = tuple[Float[Array, "copies rows lanes"], ...]
 
 TakenRows = tuple[Float[Array, "_ lanes"], ...]
 """Velocity components of some of the rows."""
+
+Particles = tuple[Float[Array, "*shape"], ...]
+"""Velocity components of any particles, in arrays of any shape."""
+
+Positions = Float[Array, " particles"]
+"""Positions in units of λ0, of a gas in space."""
+
+Velocities = tuple[Float[Array, " particles"], ...]
+"""Velocity components of a gas in space."""
+
+Layer = Int32[Array, " particles"]
+"""The layer every particle is in."""
+
+Profile = Float[Array, " layers"]
+"""One number for every layer."""
 
 Word = UInt32[Array, "..."]
 

@@ -7,7 +7,7 @@ import pytest
 from jax import lax
 
 from jdsmc import random
-from jdsmc.collide import collide, hits_per_particle
+from jdsmc.collide import collide, hits_per_particle, meet
 from jdsmc.options import Options
 from jdsmc.pairs import (
     LARGEST_HITS,
@@ -158,9 +158,7 @@ def _plain_disjoint(key, gas, plan, velocity, duration):
     taken, left, right, fresh = take_rows(key, plain, velocity)
     hits = hits_per_particle(plan, f32(5.0), duration)
     bound = f32(5.0) * (2.0 * plain.first / plan.rows) / hits
-    from jdsmc.collide import _wave  # noqa: PLC0415 - the same acceptance, other pairs
-
-    left, right, _ = _wave(random.fold_in(key, 2), gas, left, right, bound)
+    left, right, *_ = meet(random.fold_in(key, 2), gas, left, right, 1.0 / bound)
     return put_rows(velocity, taken, left, right, fresh)
 
 

@@ -1,7 +1,8 @@
 """Scenes: one physical situation a file."""
 
+from .fourier_flow import FourierFlow
 from .heat_flux_force import HeatFluxForce
 from .homogeneous_cooling import HomogeneousCooling
 from .uniform_shear import UniformShear
 
-__all__ = ["HeatFluxForce", "HomogeneousCooling", "UniformShear"]
+__all__ = ["FourierFlow", "HeatFluxForce", "HomogeneousCooling", "UniformShear"]
