@@ -6,9 +6,15 @@ from typing import Any, ClassVar, Literal
 
 import tyro
 
-from .gas import RATE_FACTORS, ElasticHardSpheres, InelasticHardSpheres
+from .gas import RATE_FACTORS, ElasticHardSpheres, InelasticHardSpheres, MaxwellMolecules
 from .options import STEPS_PER_RECORD, TIME_STEP
-from .scenarios import HeatFluxForce, HomogeneousCooling, UniformShear
+from .scenarios import (
+    FourierFlow,
+    HeatFluxForce,
+    HomogeneousCooling,
+    ShearedSlab,
+    UniformShear,
+)
 
 GASES = ("ihs", "ehs", "ehs-measured")
 
@@ -62,14 +68,11 @@ class Scene:
     `swept` names the fields that hold numbers as text: `scenes` takes their values.
     """
 
-    swept: ClassVar[tuple[str, ...]] = ("restitution",)
+    swept: ClassVar[tuple[str, ...]]
     has_gases: ClassVar[bool] = False
 
     numerics: tyro.conf.OmitArgPrefixes[Numerics]
     output: tyro.conf.OmitArgPrefixes[Output]
-    restitution: str = "0.9"
-    """Coefficient of normal restitution, in (0, 1]. Sweeps take ranges first:last:step and lists
-    separated by commas, e.g. 0.5:0.95:0.05 or 0.5,0.7."""
 
     def scenes(self, values: dict[str, Any]) -> dict[str, Any]:
         """The scene of every gas by its name, made of the numbers in `values`."""
@@ -77,11 +80,19 @@ class Scene:
 
 
 @dataclass(frozen=True)
-class Shear(Scene):
-    """Uniform shear flow of a granular gas, or (sweep) many of them.
+class Granular(Scene):
+    """A scene whose gas has a restitution."""
 
-    Lengths are in mean free paths lambda0, times in tau0 = lambda0/v0, v0 = sqrt(2 T0/m).
-    """
+    swept: ClassVar[tuple[str, ...]] = ("restitution",)
+
+    restitution: str = "0.9"
+    """Coefficient of normal restitution, in (0, 1]. Sweeps take ranges first:last:step and lists
+    separated by commas, e.g. 0.5:0.95:0.05 or 0.5,0.7."""
+
+
+@dataclass(frozen=True)
+class Sheared(Granular):
+    """A scene whose gas, one of two kinds, is sheared."""
 
     swept: ClassVar[tuple[str, ...]] = ("restitution", "shear_rate", "rate_factor")
     has_gases: ClassVar[bool] = True
@@ -94,13 +105,49 @@ class Shear(Scene):
     rate_factor: str = "linear"
     """Collision rate of the elastic gas over the inelastic one: linear, viscosity, or a number."""
 
+    def gases(self, values: dict[str, Any]) -> dict[str, Any]:
+        """The gases asked for, by name."""
+        return {name: _gas(name, values) for name in self.gas.split(",")}
+
+
+@dataclass(frozen=True)
+class Shear(Sheared):
+    """Uniform shear flow of a granular gas, or (sweep) many of them.
+
+    Lengths are in mean free paths lambda0, times in tau0 = lambda0/v0, v0 = sqrt(2 T0/m).
+    """
+
     def scenes(self, values):
-        gases = {name: _gas(name, values) for name in self.gas.split(",")}
+        gases = self.gases(values)
         return {name: UniformShear(gas, values["shear_rate"]) for name, gas in gases.items()}
 
 
 @dataclass(frozen=True)
-class Cooling(Scene):
+class Slab(Sheared):
+    """A granular gas between Lees-Edwards planes, or (sweep) many of them.
+
+    Lengths are in mean free paths lambda0, times in tau0 = lambda0/v0, v0 = sqrt(2 T0/m), at the
+    mean density. With `--duration` the profiles are followed in time.
+    """
+
+    swept: ClassVar[tuple[str, ...]] = ("restitution", "shear_rate", "rate_factor", "length")
+
+    length: str = "2.5"
+    """Distance of the planes in lambda0, in (0, 1000]; sweeps take ranges and lists."""
+    initial_state: Literal["equilibrium", "nonequilibrium", "local_equilibrium"] = "equilibrium"
+    """A gas at rest (eq. 3.5), the paper's state far from equilibrium (3.6), or uniform shear."""
+    layers: int = 50
+    """Layers across the slab: collisions take place, and profiles are measured, within them."""
+
+    def scenes(self, values):
+        numbers = (values["shear_rate"], values["length"])
+        switches = {"initial_state": self.initial_state, "layers": self.layers}
+        gases = self.gases(values)
+        return {name: ShearedSlab(gas, *numbers, **switches) for name, gas in gases.items()}
+
+
+@dataclass(frozen=True)
+class Cooling(Granular):
     """A granular gas that cools freely, or (sweep) many of them.
 
     Lengths are in mean free paths lambda0, times in tau0 = lambda0/v0, v0 = sqrt(2 T0/m).
@@ -111,7 +158,7 @@ class Cooling(Scene):
 
 
 @dataclass(frozen=True)
-class HeatFlux(Scene):
+class HeatFlux(Granular):
     """A granular gas under the heat-flux force, or (sweep) many of them.
 
     Lengths are in mean free paths lambda0, times in tau0 = lambda0/v0, v0 = sqrt(2 T0/m).
@@ -135,6 +182,36 @@ class HeatFlux(Scene):
                 "collisions."
             )
         return {"ihs": scene}
+
+
+@dataclass(frozen=True)
+class Fourier(Scene):
+    """Heat conduction between two walls under gravity, or (sweep) many such states.
+
+    Lengths are in mean free paths lambda0 at the mean density, times in tau0 = lambda0/v0 with
+    v0 = sqrt(2 T0/m), T0 being the temperature of the hot wall.
+    """
+
+    swept: ClassVar[tuple[str, ...]] = ("cold_temperature", "gravity", "length")
+
+    cold_temperature: str = "0.05"
+    """Temperature of the cold wall over that of the hot one, in (0, 1]. Sweeps take ranges
+    first:last:step and lists separated by commas."""
+    gravity: str = "0"
+    """Gravity in v0^2/lambda0, positive towards the cold wall; in [-1, 1]. Write --gravity=-0.016,
+    or a list --gravity=-0.016,0,0.008."""
+    length: str = "10"
+    """Distance of the walls in lambda0, in (0, 1000]."""
+    wall: Literal["maxwell", "bgk"] = "maxwell"
+    """What the walls emit: a Maxwellian (type I), or the BGK gas that conducts heat (type II)."""
+    gas: Literal["hard-spheres", "maxwell-molecules"] = "hard-spheres"
+    """The gas, elastic in both cases."""
+    layers: int = 100
+    """Layers across the slab: collisions take place, and profiles are measured, within them."""
+
+    def scenes(self, values):
+        gas = InelasticHardSpheres(1.0) if self.gas == "hard-spheres" else MaxwellMolecules()
+        return {self.gas: FourierFlow(gas, **values, wall=self.wall, layers=self.layers)}
 
 
 def _gas(name: str, values: dict[str, Any]):

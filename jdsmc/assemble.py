@@ -26,6 +26,12 @@ DESCRIPTIONS = {
     "collision_ratio": ("collisions over their local-equilibrium number s/s0", "1"),
     "collision_rate_ratio": ("collision rate over its local-equilibrium value", "1"),
     "temperature": ("temperature T/T0", "1"),
+    "mean_temperature": ("temperature T/T0 averaged over the particles", "1"),
+    "velocity_x": ("flow velocity u_x", "v0"),
+    "velocity_y": ("flow velocity u_y", "v0"),
+    "momentum_x": ("momentum density n m u_x", "n̄ m v0"),
+    "momentum_y": ("momentum density n m u_y", "n̄ m v0"),
+    **{f"stress_{ij}": (f"P_{ij}", "n̄ m v0²") for ij in ("xx", "yy", "zz", "xy")},
     "reduced_shear_rate": ("a* = a τ_η", "1"),
     "shear_stress": ("-P_xy/nT", "1"),
     "normal_stress_xy": ("(P_xx-P_yy)/nT", "1"),
@@ -33,6 +39,7 @@ DESCRIPTIONS = {
     "pressure_xx": ("P_xx/nT", "1"),
     "pressure_yy": ("P_yy/nT", "1"),
     "pressure_zz": ("P_zz/nT", "1"),
+    "pressure_xy": ("P_xy/nT", "1"),
     "reduced_viscosity": ("η* = (-P_xy/nT)/a*", "1"),
     "first_viscometric": ("-Ψ1 = (P_xx-P_yy)/(nT a*²)", "1"),
     "second_viscometric": ("Ψ2 = (P_zz-P_yy)/(nT a*²)", "1"),
@@ -218,20 +225,21 @@ def _axis_coordinate(flat) -> dict:
 def _dataset(flat, pairs, shape, dims, coords) -> xr.Dataset:
     """Variables `name` and `name_error` from arrays whose first axis is the sweep point."""
     data = xr.Dataset(coords=coords)
-    profiles = getattr(flat, "profiles", ())
+    profiles, own = getattr(flat, "profiles", ()), getattr(flat, "descriptions", {})
     for name, arrays in pairs.items():
         extra = (flat.axis,) if name in profiles else EXTRA_DIMENSIONS.get(name, ())
         for suffix, array in zip(("", "_error"), arrays, strict=True):
             full = array.reshape(shape + array.shape[1:])
-            data[name + suffix] = ((*dims, *extra), full, _described(name + suffix))
+            described = _described(name + suffix, own)
+            data[name + suffix] = ((*dims, *extra), full, described)
     if profiles:
         data = data.assign_coords(_axis_coordinate(flat))
     return data.assign_coords({d: c for d, c in EXTRA_COORDINATES.items() if d in data.dims})
 
 
-def _described(name: str) -> dict:
+def _described(name: str, own: dict | None = None) -> dict:
     base = name.removesuffix("_error")
-    long, unit = DESCRIPTIONS.get(base, (base, "1"))
+    long, unit = (own or {}).get(base) or DESCRIPTIONS.get(base, (base, "1"))
     return {"long_name": f"standard error of {long}" if base != name else long, "units": unit}
 
 
@@ -262,8 +270,13 @@ def provenance(scene, options: Options) -> dict:
         "gas_model": type(scene.gas).__name__,
         **numbers,
         **names,
-        **{f"option_{n}": getattr(scene, n) for n in ("scheme", "wall") if hasattr(scene, n)},
+        **{
+            f"option_{n}": getattr(scene, n)
+            for n in ("scheme", "wall", "initial_state")
+            if hasattr(scene, n)
+        },
         **({"layers": scene.layers} if hasattr(scene, "layers") else {}),
+        "viscosity_exponent": scene.gas.viscosity_exponent,
         "n_particles": options.n_particles,
         "time_step": options.time_step,
         "steps_per_record": options.steps,

@@ -8,7 +8,7 @@ import numpy as np
 import tyro
 
 from . import grid
-from ._commands import Cooling, HeatFlux, Numerics, Output, Scene, Shear, named
+from ._commands import Cooling, Fourier, HeatFlux, Numerics, Output, Scene, Shear, Slab, named
 from .faults import FaultError
 from .result import Result, check_writable, join_gases, load
 from .run import run
@@ -33,6 +33,16 @@ def run_heat_flux(scene: tyro.conf.OmitArgPrefixes[HeatFlux]) -> None:
     simulate(scene, sweep=False)
 
 
+def run_fourier(scene: tyro.conf.OmitArgPrefixes[Fourier]) -> None:
+    """Simulate heat conduction between two walls, under gravity if wanted."""
+    simulate(scene, sweep=False)
+
+
+def run_slab(scene: tyro.conf.OmitArgPrefixes[Slab]) -> None:
+    """Simulate one sheared gas in space, between Lees-Edwards planes."""
+    simulate(scene, sweep=False)
+
+
 def sweep_shear(scene: tyro.conf.OmitArgPrefixes[Shear]) -> None:
     """Simulate every combination of the given parameters, in one program for each gas."""
     simulate(scene, sweep=True)
@@ -45,6 +55,16 @@ def sweep_cooling(scene: tyro.conf.OmitArgPrefixes[Cooling]) -> None:
 
 def sweep_heat_flux(scene: tyro.conf.OmitArgPrefixes[HeatFlux]) -> None:
     """Simulate every combination of the given restitutions and fields, in one program."""
+    simulate(scene, sweep=True)
+
+
+def sweep_fourier(scene: tyro.conf.OmitArgPrefixes[Fourier]) -> None:
+    """Simulate every combination of the given wall temperatures, gravities and lengths."""
+    simulate(scene, sweep=True)
+
+
+def sweep_slab(scene: tyro.conf.OmitArgPrefixes[Slab]) -> None:
+    """Simulate sheared slabs of every combination of the given parameters."""
     simulate(scene, sweep=True)
 
 
@@ -68,9 +88,13 @@ COMMANDS = {
     "run shear": run_shear,
     "run cooling": run_cooling,
     "run heat-flux": run_heat_flux,
+    "run fourier": run_fourier,
+    "run sheared-slab": run_slab,
     "sweep shear": sweep_shear,
     "sweep cooling": sweep_cooling,
     "sweep heat-flux": sweep_heat_flux,
+    "sweep fourier": sweep_fourier,
+    "sweep sheared-slab": sweep_slab,
     "show": show,
     "plot": plot,
 }

@@ -66,26 +66,28 @@ def collide(
     hits = hits_per_particle(plan, majorant, duration)
     share_first, share_second = thinning(plan, hits)
     taken, left, right, fresh = take_rows(key, plan, velocity)
-    left, right, tally, _ = meet(random.fold_in(key, 2), gas, left, right, share_first / majorant)
+    factors = share_first / majorant, share_second / majorant
+    left, right, tally, _ = meet(key, 2, gas, left, right, factors[0])
     again = tuple(v[: plan.second] for v in left)
-    again, fresh, later, _ = meet(
-        random.fold_in(key, 3), gas, again, fresh, share_second / majorant
-    )
+    again, fresh, later, _ = meet(key, 3, gas, again, fresh, factors[1])
     left = tuple(v.at[: plan.second].set(w) for v, w in zip(left, again, strict=True))
     missed = jnp.maximum(share_first - 1.0, 0.0) + jnp.maximum(share_second - 1.0, 0.0)
     tally = eqx.tree_at(lambda t: t.overflow, tally.then(later), missed * plan.first * plan.lanes)
     return put_rows(velocity, taken, left, right, fresh), tally
 
 
-def meet(key: Key, gas: AbstractGas, left: Particles, right: Particles, factor):
+def meet(key: Key, stream: int, gas: AbstractGas, left: Particles, right: Particles, factor):
     """Disjoint pairs, each accepted with probability rate x factor (one number, or one a pair).
 
+    Random numbers come from a `stream` of the key that nothing else in the step uses.
     Returns: the two sides after the collisions, their tally, and the largest probability.
     The barriers keep XLA from computing the random numbers and the transfer again for each
     component and each sum (2 to 3 times slower).
     """
     shape, dtype = left[0].shape, left[0].dtype
-    uniforms = random.three_uniforms(lax.optimization_barrier(random.bits(key, shape)), dtype)
+    uniforms = random.three_uniforms(
+        lax.optimization_barrier(random.bits(key, shape, stream)), dtype
+    )
     relative = tuple(a - b for a, b in zip(left, right, strict=True))
     speed = jnp.sqrt(sum(g * g for g in relative))
     probability = gas.rate(speed) * factor

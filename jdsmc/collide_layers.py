@@ -2,7 +2,6 @@
 
 import jax.numpy as jnp
 
-from . import random
 from .collide import Collisions, meet
 from .gas import AbstractGas
 from .layers import populations
@@ -31,14 +30,14 @@ def collide_in_layers(
     population = populations(layer, count)
     groups = groups_in(population)
     first, second = shares(population, groups, dtype)
-    trios = seat(random.fold_in(key, 0), layer, groups, most_groups(n_particles, count))
+    trios = seat(key, 0, layer, groups, most_groups(n_particles, count))
     a, b, c = (tuple(v[seats] for v in velocity) for seats in trios.seats)
     has = trios.taken
     pair_rate = duration * (count / (2.0**0.5 * n_particles))
     factor = jnp.where(has[0] & has[1], pair_rate * first[trios.layer], 0.0)
-    a, b, tally, largest = meet(random.fold_in(key, 1), gas, a, b, factor)
+    a, b, tally, largest = meet(key, 1, gas, a, b, factor)
     factor = jnp.where(has[1] & has[2], pair_rate * second[trios.layer], 0.0)
-    b, c, later, larger = meet(random.fold_in(key, 2), gas, b, c, factor)
+    b, c, later, larger = meet(key, 2, gas, b, c, factor)
     # an empty seat is written past the end, that is nowhere
     places = jnp.where(has, trios.seats, n_particles).ravel()
     velocity = tuple(

@@ -5,12 +5,15 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool
 
-from . import random
 from .types import Key, Positions, Scalar, Velocities
 from .walls import Walls
 
 MOST_BOUNCES = 100
 """Wall hits of one particle in one step; a particle still flying then is counted as lost."""
+
+
+FIRST_STREAM = 16
+"""Random numbers of a flight come from this stream of the key and the following ones."""
 
 
 class Exchange(eqx.Module):
@@ -44,7 +47,6 @@ def fly(
     """Parabolic flight with acceleration -g ẑ; who hits a wall flies on with what it gives back."""
     zero = jnp.zeros((), position.dtype)
     remaining = jnp.full_like(position, duration)
-    flights = (position, velocity, remaining, Exchange(zero, zero, zero, zero))
 
     def any_left(carry):
         number, (_, _, remaining, _) = carry
@@ -52,15 +54,17 @@ def fly(
 
     def once_more(carry):
         number, flights = carry
-        return number + 1, _fly_once(random.fold_in(key, number), walls, flights, gravity, length)
+        stream = FIRST_STREAM + 2 * number
+        return number + 1, _fly_once(key, stream, walls, flights, gravity, length)
 
-    first = (jnp.asarray(1, jnp.int32), _fly_once(key, walls, flights, gravity, length))
+    flights = (position, velocity, remaining, Exchange(zero, zero, zero, zero))
+    first = once_more((jnp.asarray(0, jnp.int32), flights))  # nearly always all there is
     _, (position, velocity, remaining, exchange) = lax.while_loop(any_left, once_more, first)
     lost = jnp.sum((remaining > 0).astype(position.dtype))
     return position, velocity, eqx.tree_at(lambda e: e.lost, exchange, lost)
 
 
-def _fly_once(key: Key, walls: Walls, flights, gravity: Scalar, length: Scalar):
+def _fly_once(key: Key, stream, walls: Walls, flights, gravity: Scalar, length: Scalar):
     """Fly until a wall is hit, take a new velocity there, and fly on unless a wall is hit again."""
     position, (vx, vy, vz), remaining, exchange = flights
     time, at_top = first_hit(position, vz, gravity, length)
@@ -70,7 +74,7 @@ def _fly_once(key: Key, walls: Walls, flights, gravity: Scalar, length: Scalar):
     arriving = vz - gravity * time
     place = jnp.where(hit, jnp.where(at_top, length, 0.0), flown)
     rest = remaining - time
-    new = lax.optimization_barrier(walls.emit(key, at_top, vz))
+    new = lax.optimization_barrier(walls.emit(key, stream, at_top, vz))
     gained = 0.5 * (sum(v * v for v in new) - (vx * vx + vy * vy + arriving * arriving))
     vx, vy, vz = (
         jnp.where(hit, emitted, old) for emitted, old in zip(new, (vx, vy, arriving), strict=True)

@@ -123,7 +123,9 @@ class History:
         reached = np.sum(common <= np.min(time[:, :, -1], axis=1, keepdims=True), axis=1)
         common = common[:, : np.min(reached)]
         series = {name: self[name] for name in self.names} | {"collisions": self["collisions"]}
-        if "temperature" in self._columns:
+        if "local_rate" in self._columns:
+            series["local_collisions"] = _integral(time, self["local_rate"])
+        elif "temperature" in self._columns:
             scale = self["scale"] if "scale" in self._columns else 1.0
             thermal = np.sqrt(2.0 * self["temperature"]) * scale
             series["local_collisions"] = _integral(time, thermal) / np.sqrt(np.pi)

@@ -96,8 +96,8 @@ def take_rows(key: Key, plan: PairPlan, velocity: Velocity):
     Returns: the row indices taken, and three tuples of components of shapes (first, lanes),
     (first, lanes) and (second, lanes); the second and third are circularly shifted.
     """
-    order = random.permutation(random.fold_in(key, 0), plan.rows)
-    shift = random.bits(random.fold_in(key, 1), (2,))[0] % jnp.uint32(plan.lanes)
+    order = random.permutation(key, plan.rows, stream=0)
+    shift = random.bits(key, (2,), stream=1)[0] % jnp.uint32(plan.lanes)
     n, m = plan.first, plan.second
     taken = order[: 2 * n + m]
     left = tuple(v[taken[:n]] for v in velocity)

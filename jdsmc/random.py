@@ -47,10 +47,14 @@ def fold_in(key: Key, data) -> Key:
     return Key(*threefry(key, jnp.asarray(data, jnp.uint32), jnp.uint32(0x6A64736D), rounds=20))
 
 
-def bits(key: Key, shape: tuple[int, ...]) -> tuple[Word, Word]:
-    """Two independent arrays of 32 random bits, of the given shape (at most 2^32 elements)."""
+def bits(key: Key, shape: tuple[int, ...], stream=0) -> tuple[Word, Word]:
+    """Two independent arrays of 32 random bits, of the given shape (at most 2^32 elements).
+
+    What needs several such arrays within a step takes them from different `stream`s of one key:
+    that costs nothing, where a new key costs twenty rounds in scalars, to compile and to run.
+    """
     count = jnp.arange(int(np.prod(shape)), dtype=jnp.uint32).reshape(shape)
-    return threefry(key, count, jnp.uint32(0))
+    return threefry(key, count, jnp.asarray(stream, jnp.uint32))
 
 
 def unit_interval(word: Word, dtype, n_bits: int = 24):
@@ -80,10 +84,10 @@ def normal_pair(words: tuple[Word, Word], dtype):
     return radius * jnp.cos(angle), radius * jnp.sin(angle)
 
 
-def permutation(key: Key, n: int) -> Int[Array, " n"]:
+def permutation(key: Key, n: int, stream=0) -> Int[Array, " n"]:
     """A random permutation of n by sorting random words: for few elements (rows, not particles).
 
     Ties of 32-bit words (probability n^2 / 2^33) are broken by position, a bias below 10^-6 for
     the at most 2^11 rows used here.
     """
-    return jnp.argsort(bits(key, (n,))[0])
+    return jnp.argsort(bits(key, (n,), stream)[0])

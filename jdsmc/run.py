@@ -74,6 +74,8 @@ def run(
     limits = Limits(
         scene, duration, collisions, observable or scene.default_observable, rtol, budget
     )
+    if hasattr(scene, "check_options"):
+        scene.check_options(options)
     check.at_least("n_realizations", n_realizations, 4)
     check.at_least("seed", seed, 0)
     flat, _ = grid.flatten(scene)

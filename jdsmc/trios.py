@@ -57,12 +57,12 @@ def groups_in(population: Int32[Array, " layers"]) -> Int32[Array, " layers"]:
     return jnp.where(population >= 2, jnp.maximum(wanted, 1), 0)
 
 
-def seat(key: Key, layer: Layer, groups: Int32[Array, " layers"], most: int) -> Trios:
-    """Give the particles their seats."""
+def seat(key: Key, stream: int, layer: Layer, groups: Int32[Array, " layers"], most: int) -> Trios:
+    """Give the particles their seats, with random numbers from a `stream` of the key."""
     (count,) = layer.shape
     index_bits = int(np.ceil(np.log2(count + 1)))
     first_group = jnp.cumsum(groups) - groups
-    place, chance = random.bits(key, (count,))
+    place, chance = random.bits(key, (count,), stream)
     uniform = random.unit_interval(place, jnp.float32)
     width = 3 * groups[layer]
     wanted = jnp.minimum((uniform * width.astype(jnp.float32)).astype(jnp.int32), width - 1)

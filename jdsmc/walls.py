@@ -48,13 +48,16 @@ class Walls(eqx.Module):
         return Walls(walls.speed, jnp.stack([speed_table(cold, True), speed_table(hot, False)]))
 
     def emit(
-        self, key: Key, at_top: Array, normal: Positions
+        self, key: Key, stream, at_top: Array, normal: Positions
     ) -> tuple[Positions, Positions, Positions]:
-        """Velocities (x, y, z) of particles emitted upwards at z = 0 or downwards at z = L."""
-        first = random.bits(random.fold_in(key, 0), normal.shape)
+        """Velocities (x, y, z) of particles emitted upwards at z = 0 or downwards at z = L.
+
+        Random numbers come from `stream` of the key and the one after it.
+        """
+        first = random.bits(key, normal.shape, stream)
         radius = jnp.sqrt(-jnp.log(random.unit_interval(first[0], normal.dtype)))
         sine, cosine = sin_cos_turns(random.unit_interval(first[1], normal.dtype))
-        second, _ = random.bits(random.fold_in(key, 1), normal.shape)
+        second, _ = random.bits(key, normal.shape, stream + 1)
         x = jnp.sqrt(-jnp.log(random.unit_interval(second, normal.dtype)))
         wall = at_top.astype(jnp.int32)
         thermal = jnp.where(at_top, self.speed[1], self.speed[0])

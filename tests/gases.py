@@ -18,6 +18,7 @@ class MaxwellMolecules(AbstractGas):
     """
 
     frictional = False
+    viscosity_exponent = 1.0
     speed: np.ndarray
 
     @property

@@ -83,7 +83,7 @@ def test_collision_frequency_in_equilibrium(factor):
     second wave's old partners have changed, but equilibrium has not.
     """
     gas = InelasticHardSpheres(1.0) if factor == 1.0 else ElasticHardSpheres(1.0, factor)
-    rates = _rates(gas, steps=40, count=32)[:, 0]
+    rates = _rates(gas, steps=40, count=48)[:, 0]
     error = rates.std(ddof=1) / np.sqrt(len(rates))
     assert error < 1e-3 * factor / np.sqrt(np.pi)
     # the particles' own Maxwellian samples fluctuate: their error is included in `error`

@@ -158,7 +158,7 @@ def _plain_disjoint(key, gas, plan, velocity, duration):
     taken, left, right, fresh = take_rows(key, plain, velocity)
     hits = hits_per_particle(plan, f32(5.0), duration)
     bound = f32(5.0) * (2.0 * plain.first / plan.rows) / hits
-    left, right, *_ = meet(random.fold_in(key, 2), gas, left, right, 1.0 / bound)
+    left, right, *_ = meet(key, 2, gas, left, right, 1.0 / bound)
     return put_rows(velocity, taken, left, right, fresh)
 
 

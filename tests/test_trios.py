@@ -16,7 +16,7 @@ f32 = jnp.float32
 def _trios(number, layer, count):
     groups = groups_in(populations(layer, count))
     most = most_groups(layer.size, count)
-    return seat(random.fold_in(random.key_from_seed(1), number), layer, groups, most)
+    return seat(random.fold_in(random.key_from_seed(1), number), 0, layer, groups, most)
 
 
 @pytest.mark.parametrize("count", [1, 7, 300])

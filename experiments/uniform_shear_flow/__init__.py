@@ -1,5 +1,5 @@
-"""Astillero and Santos (2005), "Uniform shear flow in dissipative gases": the homogeneous part.
+"""Astillero and Santos (2005), "Uniform shear flow in dissipative gases".
 
-Sections III, IV B, V B and V C; figures 5 to 8 and 10 to 18. Run it with
+All of it: figures 1 to 18, homogeneous and inhomogeneous. Run it with
 `python -m experiments.uniform_shear_flow`; README.md tells how the files divide the work.
 """

@@ -8,17 +8,19 @@ from pathlib import Path
 import matplotlib as mpl
 import tyro
 
-from . import report, symmetry
+from ..store import obtain, program
+from . import report, report_slab, slab, symmetry
 from .data import Measurements
 from .figures import draw_all
-from .store import obtain, obtain_steady, program
-from .systems import FULL, SMALL, Size, main_cases, study_cases
+from .figures.slab import draw_slabs
+from .store import obtain_steady
+from .systems import FULL, MODULE, SMALL, Size, main_cases, study_cases
 
 RESULTS = Path(__file__).parent / "results"
 
 
 def main(full: bool = False, out: Path | None = None, fresh: bool = False):
-    """Reproduce the homogeneous part of Astillero and Santos (2005).
+    """Reproduce Astillero and Santos (2005).
 
     Args:
         full: all ten restitutions, far more statistics and the whole convergence study.
@@ -32,15 +34,17 @@ def main(full: bool = False, out: Path | None = None, fresh: bool = False):
     folder = out or Path("output/uniform_shear_flow") / size.name
     folder.mkdir(parents=True, exist_ok=True)
     data = measure(size, folder, fresh)
+    slabs = slab.measure(slab.SIZES[size.name], folder, fresh)
     study = [obtain_steady(case, folder, fresh) for case in study_cases(size)]
-    figures = draw_all(data, study, folder)
-    table = report.write(data, study, size, folder, fresh)
+    figures = [*draw_all(data, study, folder), *draw_slabs(slabs, data, folder)]
+    inhomogeneous = report_slab.sections(slabs, data)
+    table = report.write(data, study, inhomogeneous, size, folder, fresh)
     keep([table, *figures], size)
     print(f"{table} and {len(figures)} figures in {time.perf_counter() - start:.0f} s")
 
 
 def measure(size: Size, folder: Path, fresh: bool) -> Measurements:
-    """All simulations but the convergence study, and the check of symmetry."""
+    """All homogeneous simulations but the convergence study, and the check of symmetry."""
     cases = {case.name: case for case in main_cases(size)}
     results = {name: obtain(case, folder, fresh) for name, case in cases.items()}
     return Measurements(cases, results, _symmetry(size, folder, fresh))
@@ -50,11 +54,11 @@ def _symmetry(size: Size, folder: Path, fresh: bool) -> dict:
     path = folder / "symmetry.json"
     if path.exists() and not fresh:
         kept = json.loads(path.read_text())
-        if (kept["options"], kept["program"]) == (size.symmetry, program()):
+        if (kept["options"], kept["program"]) == (size.symmetry, program(MODULE)):
             return kept["values"]
     print("symmetry: running", flush=True)
     values = symmetry.check(**size.symmetry)
-    kept = {"options": size.symmetry, "program": program(), "values": values}
+    kept = {"options": size.symmetry, "program": program(MODULE), "values": values}
     path.write_text(json.dumps(kept, indent=1))
     return values
 

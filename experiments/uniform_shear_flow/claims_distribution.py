@@ -6,8 +6,8 @@ import xarray as xr
 from jdsmc import Estimate
 from jdsmc.theory import bgk_shear_flow
 
+from ..claims import Claim, Finding, decide
 from . import tails
-from .claims import Claim, Finding, decide
 from .data import Measurements, propagate
 from .systems import FAST
 

@@ -4,8 +4,8 @@ import numpy as np
 
 from jdsmc.theory import bgk_shear_flow
 
+from ..claims import Claim, Finding, decide, percent
 from . import correlation
-from .claims import Claim, Finding, decide, percent
 from .correlation import mean_over_rates
 from .data import Measurements, Term, propagate
 from .systems import FAST

@@ -4,8 +4,8 @@ import numpy as np
 
 from jdsmc.observables import VISCOSITY_TIME
 
+from ..claims import Claim, Finding, percent
 from . import correlation
-from .claims import Claim, Finding, percent
 from .correlation import mean_over_rates
 from .data import Measurements, Term, propagate
 from .systems import FAST, SLOW

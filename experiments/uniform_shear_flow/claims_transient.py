@@ -4,7 +4,7 @@ import numpy as np
 
 from jdsmc.theory import bgk_shear_flow
 
-from .claims import Claim, Finding, percent
+from ..claims import Claim, Finding, percent
 from .data import Measurements
 from .measured import HYDRODYNAMIC, running_mean
 from .systems import FAST, SLOW

@@ -7,9 +7,9 @@ import numpy as np
 
 from jdsmc import Estimate
 
+from ..store import obtain
 from .data import Measurements, SteadyQuantity, Term, at_point, estimate_in, measured_collisions
 from .measured import STEADY
-from .store import obtain
 from .systems import FAST, variations
 
 PAPER_PARTICLES = 10_000

@@ -1,13 +1,12 @@
 """Our value of every quoted number, from the simulations."""
 
-from typing import NamedTuple
-
 import numpy as np
 import xarray as xr
 
 from jdsmc import Estimate
 from jdsmc.observables import VISCOSITY_TIME, maxwell_speed_classes
 
+from ..compare import Span
 from . import correlation, tails
 from .data import Measurements, SteadyQuantity, Term
 from .systems import FAST, SLOW
@@ -17,18 +16,6 @@ SHARES = maxwell_speed_classes()
 
 HYDRODYNAMIC = 2.0
 """Collisions per particle after which the paper takes the kinetic stage as over (Fig. 10)."""
-
-
-class Span(NamedTuple):
-    """A number that depends on a criterion: at the middle one, and the range from loose to strict.
-
-    `label` tells the criteria.
-    """
-
-    value: float
-    low: float
-    high: float
-    label: str
 
 
 def one(gas, restitution, shear_rate, name, index=None, function=lambda x: x) -> SteadyQuantity:

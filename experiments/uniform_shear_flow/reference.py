@@ -4,19 +4,7 @@
 5%); for a range it is half its length plus that. The paper gives no error bars.
 """
 
-from dataclasses import dataclass
-
-
-@dataclass(frozen=True)
-class Quoted:
-    """A number in the paper."""
-
-    key: str
-    what: str
-    value: float
-    half_width: float
-    place: str
-
+from ..compare import Quoted
 
 NUMBERS = (
     Quoted("temperature", "T_s/T0, α = 0.9, a τ0 = 4", 147, 0.5, "V A, Fig. 4"),

@@ -9,9 +9,10 @@ import numpy as np
 
 from jdsmc import Estimate
 
+from .. import markdown
+from ..compare import Comparison, compare, shown
 from . import claims_distribution, claims_models, claims_steady, claims_transient, table
 from . import independent as independent_program
-from .compare import Comparison, compare, shown
 from .convergence import all_limits
 from .data import Measurements
 from .evidence import (
@@ -37,8 +38,18 @@ CLAIMS = (
 )
 
 
-def write(data: Measurements, study: list, size: Size, folder: Path, fresh: bool) -> Path:
-    """Make every comparison, run the evidence, and write FOLDER/table.md."""
+def write(
+    data: Measurements,
+    study: list,
+    inhomogeneous: dict[str, list[str]],
+    size: Size,
+    folder: Path,
+    fresh: bool,
+) -> Path:
+    """Make every comparison, run the evidence, and write FOLDER/table.md.
+
+    `inhomogeneous`: the sections of `report_slab`.
+    """
     ours = measure(data)
     comparisons = [compare(quoted, ours[quoted.key]) for quoted in NUMBERS]
     formulas = theory()
@@ -46,9 +57,10 @@ def write(data: Measurements, study: list, size: Size, folder: Path, fresh: bool
     findings = [(claim, claim.check(data)) for claim in CLAIMS]
     sections = {
         f"Uniform shear flow: paper and jdsmc ({size.name} run)": provenance(data),
-        "Quoted numbers": [NUMBERS_NOTE, "", *table.numbers(comparisons)],
-        "Quoted formulas (theory, not measured)": table.numbers(checks),
-        "Statements": table.statements(findings),
+        "Quoted numbers": [NUMBERS_NOTE, "", *markdown.numbers(comparisons)],
+        "Quoted formulas (theory, not measured)": markdown.numbers(checks),
+        "Statements": markdown.statements(findings),
+        **inhomogeneous,
         "Disagreements": disagreements(data, comparisons, findings, folder, fresh),
         "Independent check": independent(data, size, folder, fresh),
         "Convergence": [CONVERGENCE_NOTE, "", *table.limits(all_limits(study))],
@@ -84,7 +96,7 @@ def provenance(data: Measurements) -> list[str]:
     attrs = next(iter(data.results.values())).attrs
     commits = sorted({str(r.attrs["commit"]) for r in data.results.values()})
     return [
-        "Astillero and Santos (2005), homogeneous part. Made by "
+        "Astillero and Santos (2005). Made by "
         "`python -m experiments.uniform_shear_flow`; do not edit.",
         "",
         f"jdsmc {attrs['jdsmc_version']} at {', '.join(commits)} (+: with changes), jax "
@@ -125,7 +137,7 @@ def disagreements(
         )
     if rows:
         header = ["quantity", "paper", "as above", "another seed", "4 N", "dt/2", "paper's error"]
-        lines += [*table.grid(header, rows), ""]
+        lines += [*markdown.grid(header, rows), ""]
     return lines + remarks(data, apart)
 
 
@@ -189,7 +201,7 @@ def independent(data: Measurements, size: Size, folder: Path, fresh: bool) -> li
         "errors of the pair selection, which the extrapolation to dt → 0 below cannot see if they "
         "do not vanish with dt. `below_1` is the share with V < v0.",
         "",
-        *table.grid(header, rows),
+        *markdown.grid(header, rows),
     ]
 
 

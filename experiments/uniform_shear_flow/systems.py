@@ -5,12 +5,15 @@ from dataclasses import asdict, dataclass, field, replace
 
 import numpy as np
 
-from jdsmc import ElasticHardSpheres, InelasticHardSpheres
+from jdsmc import ElasticHardSpheres, InelasticHardSpheres, Result, run
 from jdsmc.options import TIME_STEP
 from jdsmc.scenarios import UniformShear
 
 FAST, SLOW = 4.0, 0.1
 """The two shear rates a τ0 of the paper: viscous heating or cooling prevails at the start."""
+
+MODULE = "scenarios/uniform_shear.py"
+"""Source in `jdsmc` of every simulation here."""
 
 GASES = {
     "ihs": lambda alpha: InelasticHardSpheres(restitution=alpha),
@@ -43,6 +46,15 @@ class Case:
         return UniformShear(
             gas=GASES[self.gas](np.array(self.restitution)), shear_rate=np.array(self.shear_rate)
         )
+
+    @property
+    def module(self) -> str:
+        """Source of the simulation in `jdsmc`."""
+        return MODULE
+
+    def simulate(self) -> Result:
+        """Run it."""
+        return run(self.scene(), progress=False, **self.options)
 
     def request(self) -> str:
         """Everything that decides the result, as text to compare with a file's."""

@@ -24,6 +24,9 @@ from ..slab_state import SlabState, maxwellian_at, next_crowding, uniform
 from ..types import Key, Physical, Positions, Profile, Scalar, Velocities
 from ..walls import Walls
 
+FAST = 4.0
+"""Speed (v0) that must not carry a particle across the slab in one step."""
+
 FIRST_CROWDING = 20.0
 """Probability per time assumed at the start: a density of 8 and a relative speed of 3.5."""
 
@@ -84,6 +87,9 @@ class FourierFlow(eqx.Module):
     samples_per_record: ClassVar[int] = 8
     axis: ClassVar[str] = "z"
     profiles: ClassVar[tuple[str, ...]] = steady_observables[3:]
+    descriptions: ClassVar[dict[str, tuple[str, str]]] = {
+        "pressure_zz": ("pressure P_zz", "n̄ m v0²"),
+    }
     additive: ClassVar[tuple[str, ...]] = (
         *("density", "pressure", "pressure_zz", "heat_flux"),
         *("mean_heat_flux", "heat_flux_cold_wall", "heat_flux_hot_wall"),
@@ -110,6 +116,15 @@ class FourierFlow(eqx.Module):
     def has_steady_state(self) -> bool:
         """Always: the walls see to it."""
         return True
+
+    def check_options(self, options: Options) -> None:
+        """Raise ValueError for a step in which a particle of 4 v0 may cross the slab."""
+        longest = float(np.min(self.length)) / FAST
+        if options.time_step > longest:
+            raise ValueError(
+                f"time_step = {options.time_step:g} lets a particle cross the slab of length "
+                f"{np.min(self.length):g} in one step; the allowed range is (0, {longest:.3g}]."
+            )
 
     def shortest_warm_up(self) -> float:
         """Collisions per particle before the first test for a steady state.
@@ -166,10 +181,10 @@ class FourierFlow(eqx.Module):
             state, exchange = carry
             number, share = inputs
             key_here = random.fold_in(key, number)
-            state, now = self.move(random.fold_in(key_here, 0), state, walls, share * duration)
+            state, now = self.move(key_here, state, walls, share * duration)
             layer = layer_of(state.position, self.length, self.layers)
             velocity, tally, met = collide_in_layers(
-                random.fold_in(key_here, 1), self.gas, layer, self.layers, state.velocity, duration
+                key_here, self.gas, layer, self.layers, state.velocity, duration
             )
             crowding = next_crowding(state.crowding, met)
             state = SlabState(state.position, velocity, crowding)

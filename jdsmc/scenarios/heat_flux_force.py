@@ -43,8 +43,9 @@ class HeatFluxForce(eqx.Module):
         gas: one without drag (`InelasticHardSpheres`).
         field: reduced strength ε* = λ ε in [0, 2]; number or 1-D array. Linear response needs a
             small one: extrapolate to zero.
-        scheme: "exact" (the force's exact flow, half before and half after the collisions), or
-            "paper": eq. (4.1) for a whole step after the collisions, then eq. (4.2).
+        scheme: "exact" (the force's exact flow, half before and half after the collisions; all
+            before them with `splitting="lie"`), or "paper": eq. (4.1) for a whole step after the
+            collisions, then eq. (4.2).
     Raises ValueError for values outside these. A run stops with FaultError if the force drives
     particles away (it does in finite time for V_x < 0 if collisions are too rare).
     """
@@ -84,17 +85,21 @@ class HeatFluxForce(eqx.Module):
         return centred(forced), jnp.max(-strength)
 
     def step(self, key: Key, velocity: Velocity, majorant: Scalar, duration: Scalar, options):
-        """Half a flow, collisions, half a flow; or collisions and the paper's explicit step."""
+        """Half a flow, collisions, half a flow; or collisions and the paper's explicit step.
+
+        With first-order splitting the whole flow comes first.
+        """
         if self.scheme == "paper":
             velocity, tally = collide(key, self.gas, options.plan, velocity, majorant, duration)
             strength = (0.5 * self.field * duration) * velocity[0]
             velocity = tuple(v - strength * v for v in velocity)
             velocity, _ = held_at(velocity, INITIAL_TEMPERATURE)
             return velocity, tally, jnp.max(-strength)
-        velocity, before = self.flow(velocity, 0.5 * duration)
+        share = 0.5 if options.splitting == "strang" else 1.0
+        velocity, before = self.flow(velocity, share * duration)
         velocity, tally = collide(key, self.gas, options.plan, velocity, majorant, duration)
-        velocity, after = self.flow(velocity, 0.5 * duration)
-        return velocity, tally, 2.0 * jnp.maximum(before, after)
+        velocity, after = self.flow(velocity, (1.0 - share) * duration)
+        return velocity, tally, jnp.maximum(before, after) / share
 
     def advance(self, key: Key, state: HomogeneousState, options: Options):
         """One record: scale to T0, measure, then make `options.steps` steps."""

@@ -1,9 +1,11 @@
 """How results are shown to people: tables and pictures, one file a scene."""
 
 from ..impulse import view as navier_stokes
-from . import heat_flux_force, homogeneous_cooling, uniform_shear
+from . import fourier_flow, heat_flux_force, homogeneous_cooling, sheared_slab, uniform_shear
 
 _SCENES = {
+    "FourierFlow": fourier_flow,
+    "ShearedSlab": sheared_slab,
     "UniformShear": uniform_shear,
     "HomogeneousCooling": homogeneous_cooling,
     "HeatFluxForce": heat_flux_force,

@@ -84,7 +84,7 @@ def label(data: xr.Dataset, point: dict[str, int]) -> str:
 
 
 def _symbol(name: str) -> str:
-    return {"restitution": "α", "field": "ε*"}.get(name, name)
+    return {"restitution": "α", "field": "ε*", "gravity": "g"}.get(name, name)
 
 
 def short(value) -> str:

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
+from ...style import save
 from ..data import Measurements
 from . import convergence, distributions, steady, transients
-from .style import save
 
 DRAW = {
     "fig05_collisions": transients.collisions,

@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.figure import Figure
 
+from ...style import COLOURS, figure
 from ..convergence import DEFAULT_NUMBER, DEFAULT_STEP, OBSERVABLES, POINTS, extrapolate, runs
 from ..systems import LABELS
-from .style import COLOURS, figure
 
 NAMES = {
     "temperature": "T_s",

@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.figure import Figure
 
+from ...style import COLOURS, band, figure, legend_of
 from ..claims_distribution import bgk, equilibrium
 from ..data import Measurements
-from .style import COLOURS, band, figure, legend_of
 
 PANELS = {
     "marginal_x": ("velocity", "C_x = V_x/v0(T)", "g_x⁽⁺⁾(C_x)"),

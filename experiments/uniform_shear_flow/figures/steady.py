@@ -6,9 +6,10 @@ from matplotlib.figure import Figure
 from jdsmc import Estimate
 from jdsmc.theory import bgk_shear_flow
 
+from ...style import COLOURS, figure, legend_of
 from ..data import Measurements, Term
 from ..systems import FAST, SLOW
-from .style import BGK, COLOURS, figure, legend_of
+from .style import BGK
 
 POINTS = {
     ("ihs", FAST): {"marker": "o", "color": COLOURS[0], "label": "IHS, a τ0 = 4"},

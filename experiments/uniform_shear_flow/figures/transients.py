@@ -5,10 +5,11 @@ from matplotlib.figure import Figure
 
 from jdsmc.theory import bgk_shear_flow
 
+from ...style import COLOURS, band, figure, legend_of
 from ..data import Measurements
 from ..measured import HYDRODYNAMIC
 from ..systems import FAST, SLOW
-from .style import BGK, COLOURS, LINES, band, figure, gas_legend, legend_of
+from .style import BGK, LINES, gas_legend
 
 CLOCK = "s (IHS), s'/β (EHS): collisions per particle"
 GASES = ("ihs", "ehs")

@@ -1,9 +1,7 @@
-"""Statements of the paper without a number: how each is put to the test."""
+"""Statements of a paper without a number: how each is put to the test."""
 
 from collections.abc import Callable
-from typing import NamedTuple
-
-from .data import Measurements
+from typing import Any, NamedTuple
 
 
 class Finding(NamedTuple):
@@ -17,11 +15,11 @@ class Finding(NamedTuple):
 
 
 class Claim(NamedTuple):
-    """A statement, where it stands, and the check."""
+    """A statement, where it stands, and the check, a function of all measurements."""
 
     what: str
     place: str
-    check: Callable[[Measurements], Finding]
+    check: Callable[[Any], Finding]
 
 
 def percent(fraction: float, digits: int = 1) -> str:

@@ -1,14 +1,38 @@
-"""Verdicts: does our value agree with the quoted one?"""
+"""Numbers that a paper quotes, and verdicts: does our value agree?
 
+`half_width` is half a unit of the last digit quoted; for a range half its length plus that.
+"""
+
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from jdsmc import Estimate
 
-from .measured import Span
-from .reference import Quoted
-
 AGREEMENT = 2.0
 """Standard errors beyond the rounding of the quoted digits that still count as agreement."""
+
+
+@dataclass(frozen=True)
+class Quoted:
+    """A number in the paper."""
+
+    key: str
+    what: str
+    value: float
+    half_width: float
+    place: str
+
+
+class Span(NamedTuple):
+    """A number that depends on a criterion: at the middle one, and the range from loose to strict.
+
+    `label` tells the criteria.
+    """
+
+    value: float
+    low: float
+    high: float
+    label: str
 
 
 class Comparison(NamedTuple):

@@ -1,0 +1,1 @@
+"""Heat conduction at small gradients: known coefficients, from the Fourier flow."""

@@ -1,0 +1,141 @@
+"""Heat conduction under gravity: balances, equilibrium, and known solutions."""
+
+import numpy as np
+import pytest
+
+from jdsmc import ElasticHardSpheres, InelasticHardSpheres, MaxwellMolecules, run
+from jdsmc.faults import FaultError
+from jdsmc.gravity_effect import at_equal_gradient
+from jdsmc.scenarios import FourierFlow
+
+SPHERES = InelasticHardSpheres(1.0)
+SMALL = {"n_particles": 2000, "n_realizations": 8, "steps_per_record": 8, "progress": False}
+
+
+@pytest.fixture(scope="module")
+def conducting():
+    scene = FourierFlow(SPHERES, 0.2, np.array([-0.05, 0.0, 0.05]), 4.0, layers=20)
+    return run(scene, rtol=0.015, seed=3, **SMALL)
+
+
+def _z_scores(value, error, expected):
+    return (np.asarray(value) - expected) / np.asarray(error)
+
+
+def test_no_particle_is_lost(conducting):
+    density = conducting.series["density"].values
+    np.testing.assert_allclose(density.mean(axis=-1), 1.0, rtol=1e-12)
+
+
+def test_energy_balance_closes_at_the_walls(conducting):
+    """Eq. (13): what the hot wall gives goes through the gas into the cold wall.
+
+    Three estimates of one flux with independent errors of 1.5%: 4 standard errors.
+    """
+    flux = conducting["mean_heat_flux"]
+    for name in ("heat_flux_cold_wall", "heat_flux_hot_wall"):
+        other = conducting[name]
+        error = np.hypot(flux.error, other.error)
+        assert np.all(np.abs(flux.value - other.value) < 4 * error)
+    assert np.all(flux.value < 0)  # from hot to cold
+
+
+def test_heat_flux_is_uniform(conducting):
+    """Eq. (13), layer by layer: a chi-square over layers and states.
+
+    Neighbouring layers see some of the same particles at different times, so the effective number
+    of degrees of freedom is smaller than that of layers; 2 per layer is four times its spread.
+    """
+    flux, mean = conducting["heat_flux"], conducting["mean_heat_flux"].value[:, None]
+    assert np.mean(_z_scores(flux.value, flux.error, mean) ** 2) < 2.0
+
+
+def test_momentum_balance_under_gravity(conducting):
+    """Eq. (12) between the first and last layer: ΔP_zz = -g ∫n dz."""
+    steady = conducting.to_xarray().to_dataset()
+    width = 4.0 / 20
+    for state in range(3):
+        here = steady.isel(gravity=state)
+        pressure, error = here["pressure_zz"].values, here["pressure_zz_error"].values
+        density = here["density"].values
+        weight = float(here["gravity"]) * width * (density.sum() - 0.5 * (density[0] + density[-1]))
+        difference = pressure[-1] - pressure[0]
+        assert abs(difference + weight) < 4 * np.hypot(error[0], error[-1])
+    assert abs(pressure[-1] - pressure[0]) > 10 * np.hypot(error[0], error[-1])
+
+
+def test_equal_walls_under_gravity_give_the_barometric_law():
+    """n ∝ exp(-2 g z) with m v0² = 2 k T0, at uniform T = T0 and without heat flux."""
+    gravity, length, layers = 0.2, 4.0, 16
+    scene = FourierFlow(SPHERES, 1.0, gravity, length, layers=layers)
+    result = run(scene, duration=160.0, seed=5, **SMALL)
+    assert result.is_steady
+    steady = result.to_xarray().to_dataset()
+    edges = np.linspace(0, length, layers + 1)
+    expected = -np.diff(np.exp(-2 * gravity * edges)) * layers
+    expected /= 1 - np.exp(-2 * gravity * length)
+    for name, law in (("density", expected), ("temperature", 1.0), ("heat_flux", 0.0)):
+        scores = _z_scores(steady[name].values, steady[f"{name}_error"].values, law)
+        # 16 values from 8 realizations: Student's t with 7 degrees of freedom has a variance of 1.4
+        assert np.mean(scores**2) < 3.0, name
+        assert np.max(np.abs(scores)) < 7.0, name
+    assert steady["density_error"].values.max() < 0.02
+
+
+def test_same_rule_as_the_paper_finds_the_point_of_equal_gradient(conducting):
+    effect = at_equal_gradient(conducting)
+    free = effect.sel(gravity=0.0)
+    assert float(free["kappa_star_change"]) == 0.0
+    assert float(free["mean_free_paths"]) == pytest.approx(2.0, abs=0.02)  # half of L = 4
+    np.testing.assert_allclose(
+        effect["reduced_gradient"], float(free["reduced_gradient"]), rtol=1e-6
+    )
+    with pytest.raises(ValueError, match="give another gradient"):
+        at_equal_gradient(conducting, gradient=50.0)
+
+
+def test_realizations_give_back_the_steady_means(conducting):
+    each = conducting.to_xarray()["realizations"].to_dataset()
+    flux = conducting["mean_heat_flux"]
+    np.testing.assert_allclose(each["mean_heat_flux"].mean("realization"), flux.value, rtol=1e-12)
+    error = each["mean_heat_flux"].std("realization", ddof=1) / np.sqrt(8)
+    np.testing.assert_allclose(error, flux.error, rtol=1e-9)
+
+
+@pytest.mark.parametrize("wall", ["maxwell", "bgk"])
+@pytest.mark.parametrize("gas", [SPHERES, MaxwellMolecules()])
+def test_every_kind_of_wall_and_gas_runs(gas, wall, tmp_path):
+    scene = FourierFlow(gas, 0.5, wall=wall, layers=10)
+    result = run(scene, duration=2.0, **SMALL | {"n_particles": 500})
+    result.save(tmp_path / "f.h5")
+    assert "No steady values" in result.table()
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"cold_temperature": 0.0}, r"cold_temperature = 0 is outside the allowed range \(0, 1\]"),
+        ({"cold_temperature": -1.0}, "cold_temperature = -1 is outside"),
+        ({"gravity": 2.0}, r"gravity = 2 is outside the allowed range \[-1, 1\]"),
+        ({"length": 0.0}, r"length = 0 is outside the allowed range \(0, 1000\]"),
+        ({"layers": 0}, r"layers = 0 is outside the allowed range \[1, inf\)"),
+        ({"gas": InelasticHardSpheres(0.9)}, "needs an elastic gas"),
+        ({"gas": ElasticHardSpheres(0.9)}, "needs an elastic gas"),
+    ],
+)
+def test_bad_input_is_refused(changed, message):
+    good = {"gas": SPHERES, "cold_temperature": 0.05}
+    with pytest.raises(ValueError, match=message):
+        FourierFlow(**good | changed)
+
+
+def test_a_step_that_crosses_the_slab_is_refused():
+    scene = FourierFlow(SPHERES, 0.5, length=0.1, layers=1)
+    with pytest.raises(ValueError, match="time_step"):
+        run(scene, duration=1.0, time_step=0.5, **SMALL)
+
+
+def test_endless_bouncing_is_a_fault():
+    scene = FourierFlow(SPHERES, 1e-6, 1.0, 2.0, layers=5)
+    with pytest.raises(FaultError, match="reduce time_step, or gravity"):
+        run(scene, duration=50.0, time_step=0.4, **SMALL)
