@@ -42,7 +42,8 @@ class Numerics:
     time_step: float = TIME_STEP
     """Largest time step as a fraction of tau(T), and of 1/shear_rate, in (0, 1]."""
     splitting: Literal["strang", "lie"] = "strang"
-    """Order of shear and collisions in a step: second order, or first as in the paper."""
+    """Order of flow (or flight) and collisions in a step: second order, or first as in the
+    papers."""
     dtype: Literal["float32", "float64"] = "float32"
     """Precision of the velocities."""
     steps_per_record: int = STEPS_PER_RECORD
@@ -154,6 +155,8 @@ class Cooling(Granular):
     """
 
     def scenes(self, values):
+        if self.numerics.splitting != "strang":
+            raise ValueError("splitting = 'lie' has no meaning here: only collisions act.")
         return {"ihs": HomogeneousCooling(InelasticHardSpheres(values["restitution"]))}
 
 

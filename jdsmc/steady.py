@@ -46,7 +46,9 @@ class SteadyTracker:
         half, three_quarters = (
             history.record_at_collisions(point, share * collisions) for share in (0.5, 0.75)
         )
-        if self._significance(history, point, half, three_quarters, history.length) > ACCEPT:
+        if not half < three_quarters < history.length:  # records too long to tell
+            self._next_test[point] = GROWTH * collisions
+        elif self._significance(history, point, half, three_quarters, history.length) > ACCEPT:
             self.start[point] = history.length
             self._next_test[point] = collisions + FIRST_TEST
         else:

@@ -117,3 +117,20 @@ def test_confirm_drops_a_quarter():
     assert tracker.start[0] == 20
     assert tracker.confirm(history, 0)
     assert tracker.start[0] == 20
+
+
+def test_records_too_long_to_compare_put_the_test_off():
+    """One record of 12 collisions: its halves cannot be told apart, nor divided by no time."""
+    history = History(1, 8, lambda record: {"temperature": record.temperature})
+    tracker = SteadyTracker(1, ("temperature",))
+    rng = np.random.default_rng(3)
+    for number in range(1, 9):
+        shown = 1 + 0.01 * rng.normal(size=(1, REALIZATIONS, 1))
+        tally = SimpleNamespace(
+            accepted=12.0 * np.ones_like(shown), energy_lost=shown, excess=0 * shown
+        )
+        record = SimpleNamespace(temperature=shown, tally=tally, elapsed=np.ones_like(shown))
+        history.append(record, None)
+        tracker.update(history)
+        assert number > 3 or not tracker.all_measuring
+    assert tracker.all_measuring
