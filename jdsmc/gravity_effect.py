@@ -32,10 +32,13 @@ def at_equal_gradient(
         window: width (λ0) of the window in which the temperature slope is fitted.
         gradient: ε0; by default the paper's rule.
     Returns: dataset over `gravity` of the quantities in `NAMES` and their standard errors, from a
-    jackknife over realizations of the whole rule, the choice of z0 included.
-    Raises ValueError for another sweep, or if a state has no point with that ε0.
+    jackknife over realizations of the whole rule, the choice of z0 included. NaN for a state where
+    no point has that ε0; its errors are NaN if that happens with one realization left out.
+    Raises ValueError for another sweep, or if no state has such a point.
     """
     value, error = jackknife(means(result), rule(result, window, gradient), axis=1)
+    if not np.any(np.isfinite(value["z0"])):
+        raise ValueError("no layer has the reduced gradient asked for; give another gradient.")
     gravity = result.to_xarray()["gravity"].values
     out = xr.Dataset(coords={"gravity": gravity}, attrs={"window": window})
     for name, long in NAMES.items():
@@ -52,15 +55,16 @@ def linear_response(
 ) -> dict[str, Estimate]:
     """B and C of κ*(ε0, g*) = κ*(ε0, 0) + B ε0 g* + C g*², fitted to a sweep over gravity.
 
-    Arguments as of `at_equal_gradient`; only states with |g*| <= `largest` are used, weighted with
-    the errors of their κ*. Errors from a jackknife of rule and fit together: the states have ε0 in
+    Arguments as of `at_equal_gradient`; states with |g*| <= `largest` and a known κ* are used,
+    weighted with its error. Errors from a jackknife of rule and fit together: the states have ε0 in
     common, so that their κ* are not independent.
     Returns: estimates "B", "C", "kappa_star" (at g = 0, from the fit) and "reduced_gradient".
     """
     effect = at_equal_gradient(result, window, gradient)
     used = np.abs(effect["reduced_gravity"].values) <= largest
+    used &= np.isfinite(effect["kappa_star_error"].values)
     if np.sum(used) < 3:
-        raise ValueError(f"fewer than three states have |g*| <= {largest:g}.")
+        raise ValueError(f"fewer than three states have a known κ* and |g*| <= {largest:g}.")
     weight = 1.0 / effect["kappa_star_error"].values[used]
     local = rule(result, window, gradient)
 
@@ -69,7 +73,7 @@ def linear_response(
         strength, ratio = (found[name][used] for name in ("reduced_gravity", "kappa_star"))
         scaled = np.vander(strength, 3, increasing=True) * weight[:, None]
         best = np.linalg.lstsq(scaled, ratio * weight, rcond=None)[0]
-        start = float(np.mean(found["reduced_gradient"]))
+        start = float(np.nanmean(found["reduced_gradient"]))
         return {
             "kappa_star": best[0],
             "B": best[1] / start,
@@ -126,14 +130,11 @@ def _at_point(local: dict, gravity, z, half: float, gradient: float | None) -> d
 
 
 def _crossing(z, gradient, wanted: float, start: float) -> float:
-    """Where the reduced gradient takes a value: of all such places the nearest to `start`."""
+    """Where the reduced gradient takes a value, nearest to `start`; NaN if nowhere."""
     above = gradient > wanted
     places = np.flatnonzero(above[1:] != above[:-1])
     if not len(places):
-        raise ValueError(
-            f"no layer has the reduced gradient ε0 = {wanted:.3f} (they have "
-            f"{np.nanmin(gradient):.3f} to {np.nanmax(gradient):.3f}); give another gradient."
-        )
+        return float("nan")
     share = (wanted - gradient[places]) / (gradient[places + 1] - gradient[places])
     found = z[places] + share * (z[places + 1] - z[places])
     return float(found[np.argmin(np.abs(found - start))])
