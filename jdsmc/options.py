@@ -10,7 +10,7 @@ from .pairs import PairPlan, plan_pairs
 
 TIME_STEP = 0.05
 """Default fraction of τ(T): steady values at the strongest shear of the papers are within 0.3% of
-the limit of short steps (experiments/uniform_shear_flow, convergence); 0.1 puts T_s 0.5% off."""
+the limit of short steps (experiments/uniform_shear_flow, convergence); 0.1 puts a2 0.5% off."""
 
 STEPS_PER_RECORD = 16
 """Default: a record each 0.8 τ(T), nearly one collision per particle."""
