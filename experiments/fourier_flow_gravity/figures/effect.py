@@ -5,55 +5,50 @@ from matplotlib.figure import Figure
 
 from ...style import COLOURS, figure
 from .. import effect
-from ..data import Measurements
+from ..data import Measurements, plain
 from ..reference import COLUMNS, table
 from ..systems import COMBINATIONS
 
 MARKERS = dict(zip(COMBINATIONS, ("s", "D", "o", "^"), strict=True))
+FINE = np.linspace(-0.11, 0.1, 100)
+
 TITLES = effect.SYMBOLS | {"mean_free_paths": "$\\mathcal{N}(z_0)$"}
 SHADES = dict(zip(COMBINATIONS, COLOURS, strict=True))
 
 
 def gravity_effect(data: Measurements) -> Figure:
-    """Fig. 7: Δκ* against g*, ours with fits, the paper's numbers in grey."""
+    """Fig. 7: the change of κ* with g*, ours and the paper's numbers with parabolas.
+
+    Each is drawn from the value of its parabola at g* = 0: Δκ* as in the tables has the error of the
+    one state g = 0 in all points.
+    """
     found, axes = figure(2, 2, 10.0, 7.6, sharex=True, sharey=True)
     for ax, combination in zip(axes.ravel(), COMBINATIONS, strict=True):
         ours, paper = data.effects[combination], table(combination)
-        ax.errorbar(
-            paper["reduced_gravity"],
-            paper["kappa_star_change"],
-            effect.scatter(combination, "kappa_star_change"),
-            fmt=MARKERS[combination],
-            ms=5,
-            color="0.6",
-            mfc="none",
-            capsize=2,
-            label="paper (its scatter)",
+        fit, other = data.responses[combination], effect.paper_response(combination)
+        _points(
+            ax,
+            (paper["reduced_gravity"], paper["kappa_star"] - plain(other["kappa_star"])[0]),
+            effect.scatter(combination, "kappa_star"),
+            {
+                "fmt": MARKERS[combination],
+                "color": "0.6",
+                "mfc": "none",
+                "label": "paper (scatter)",
+            },
         )
-        strength = ours["reduced_gravity"].values
-        ax.errorbar(
-            strength,
-            ours["kappa_star_change"].values,
-            ours["kappa_star_change_error"].values,
-            ours["reduced_gravity_error"].values,
-            fmt=MARKERS[combination],
-            ms=5,
-            color=SHADES[combination],
-            capsize=2,
-            label="jdsmc (1 s.e.)",
+        value = ours["kappa_star"].values - plain(fit["kappa_star"])[0]
+        _points(
+            ax,
+            (ours["reduced_gravity"].values, value),
+            ours["kappa_star_error"].values,
+            {"fmt": MARKERS[combination], "color": SHADES[combination], "label": "jdsmc (1 s.e.)"},
         )
-        fit = data.responses[combination]
-        gradient = fit["reduced_gradient"].value
-        line = np.linspace(-0.11, 0.1, 100)
-        slope = fit["B"].value * gradient
-        start = fit["kappa_star"].value - float(ours["kappa_star"].sel(gravity=0.0))
-        ax.plot(
-            line,
-            start + slope * line + fit["C"].value * line**2,
-            color=SHADES[combination],
-            lw=1,
-            label=f"fit, B = {fit['B']}",
-        )
+        gradient = plain(fit["reduced_gradient"])[0]
+        for one, colour, whose in ((fit, SHADES[combination], ""), (other, "0.6", "paper's ")):
+            (slope, _), (bend, _) = plain(one["B"]), plain(one["C"])
+            line = slope * gradient * FINE + bend * FINE**2
+            ax.plot(FINE, line, color=colour, lw=1, label=f"{whose}B = {one['B']}")
         ax.axhline(0, color="0.8", lw=0.8, zorder=0)
         ax.axvline(0, color="0.8", lw=0.8, zorder=0)
         ax.set_title(f"{combination.label}, ε0 = {gradient:.2f}", fontsize=10)
@@ -62,8 +57,12 @@ def gravity_effect(data: Measurements) -> Figure:
     for ax in axes[1]:
         ax.set_xlabel("g*")
     for ax in axes[:, 0]:
-        ax.set_ylabel("Δκ*")
+        ax.set_ylabel("κ* - κ*(g = 0) of the parabola")
     return found
+
+
+def _points(ax, points: tuple, error, style: dict) -> None:
+    ax.errorbar(*points, error, ms=5, capsize=2, **style)
 
 
 def rows(data: Measurements) -> Figure:

@@ -18,7 +18,7 @@ def temperature(data: Measurements) -> Figure:
 
 def heat_flux(data: Measurements) -> Figure:
     """Fig. 3: q_z, with its mean and the two wall fluxes as marks at the ends."""
-    found = _profiles(data, "heat_flux", "$q_z$")
+    found = _profiles(data, "heat_flux", "$q_z$", loc="center left", bbox_to_anchor=(1.0, 0.5))
     ax = found.axes[0]
     for gravity, colour in GRAVITY_COLOURS.items():
         state = data.state(EXAMPLE, gravity)
@@ -66,16 +66,21 @@ def kinds_of_wall(data: Measurements) -> Figure:
 
 
 def _profiles(
-    data: Measurements, name: str, label: str, power: float = 1.0, top: float | None = None
+    data: Measurements,
+    name: str,
+    label: str,
+    power: float = 1.0,
+    top: float | None = None,
+    **place,
 ) -> Figure:
-    """A profile at every g of Figs. 2 to 5."""
+    """A profile at every g of Figs. 2 to 5; `place`: of the legend."""
     found, axes = figure(1, 1, 6.4, 4.8)
     ax = axes[0, 0]
     for gravity, colour in GRAVITY_COLOURS.items():
         _draw(ax, data, EXAMPLE, gravity, name, colour, power=power)
     entries = {f"g = {g:g}": {"color": colour} for g, colour in GRAVITY_COLOURS.items()}
     title = f"{EXAMPLE.label}\nbands: 1 s.e."
-    ax.legend(handles=legend_of(entries), fontsize=8, title=title, title_fontsize=8)
+    ax.legend(handles=legend_of(entries), fontsize=8, title=title, title_fontsize=8, **place)
     ax.set(xlabel="z/L (cold wall at 0, hot wall at 1)", ylabel=label, xlim=(0, 1))
     if top:
         ax.set_ylim(0, top)
