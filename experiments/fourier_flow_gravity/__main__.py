@@ -19,7 +19,7 @@ def main(full: bool = False, out: Path | None = None, fresh: bool = False):
     """Reproduce Tahiri, Tij and Santos, heat conduction under gravity (2000).
 
     Args:
-        full: all 51 states of the paper, several times the statistics, Maxwell molecules twice.
+        full: all 51 states of the paper and two more of its figures, with more statistics.
         out: folder for simulations (*.h5, reused if they are what is asked for), figures and
             table.md; by default output/fourier_flow_gravity/small or full.
         fresh: run every simulation again.

@@ -19,8 +19,8 @@ SHADES = dict(zip(COMBINATIONS, COLOURS, strict=True))
 def gravity_effect(data: Measurements) -> Figure:
     """Fig. 7: the change of κ* with g*, ours and the paper's numbers with parabolas.
 
-    Each is drawn from the value of its parabola at g* = 0: Δκ* as in the tables has the error of the
-    one state g = 0 in all points.
+    Drawn from the value of the parabola at g* = 0: Δκ* as in the tables has the error of the one
+    state g = 0 in all points.
     """
     found, axes = figure(2, 2, 10.0, 7.6, sharex=True, sharey=True)
     for ax, combination in zip(axes.ravel(), COMBINATIONS, strict=True):
