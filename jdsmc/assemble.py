@@ -109,16 +109,14 @@ def steady_estimates(scene, history: History, point: int, edges) -> tuple[dict, 
     blocks = [history.point(point, a, b) for a, b in itertools.pairwise(edges)]
     means = {name: np.concatenate([b[name] for b in blocks]) for name in blocks[0]}
     one = grid.take(scene, point)
+    own = one.observables
+    restitution = getattr(one.gas, "restitution", 1.0)
+    factor = float(one.gas.local_collision_factor())
 
     def observables(averages):
         if "T1_steps" not in averages:  # a gas in space has no one temperature
-            return one.observables(averages)
-        restitution = getattr(one.gas, "restitution", 1.0)
-        factor = float(one.gas.local_collision_factor())
-        return {
-            **one.observables(averages),
-            **collisional(averages, restitution, factor),
-        }
+            return own(averages)
+        return own(averages) | collisional(averages, restitution, factor)
 
     return jackknife(means, observables, axis=0)
 
