@@ -4,6 +4,8 @@ Throughput is that of the engine on one core in the steady state, at the paper's
 particles, 100 layers, dt = 0.004) and at 5e5 particles, at the paper's step and at ours; the layers
 are summed up after every step, or after every 64.
 
+Ways to find partners in a layer are compared in `pairing.py`.
+
 The time to κ* is that of T_- = 0.05, walls of type I, without gravity, at the point with
 𝒩(z0) = 5. Ours: `jdsmc.run` at its defaults on two cores, from the call to the result; the error
 reached is scaled to 1% as 1/√(time of the measurement), the warm-up staying as it is. The paper's:
@@ -21,6 +23,7 @@ from jdsmc.gravity_effect import at_equal_gradient
 from jdsmc.options import TIME_STEP, Options
 from jdsmc.scenarios import FourierFlow
 
+from .pairing import WAYS
 from .timing import say, seconds, summary
 from .worker import call
 
@@ -48,6 +51,11 @@ def measure(quick: bool) -> dict:
     return {
         "target": TARGET,
         "throughput": [call("slab:throughput", cores=1, **common, **case) for case in cases],
+        "pairing": [
+            call("pairing:measure", cores=1, way=way, n_particles=n, **common)
+            for n in (PAPER["particles"], large)
+            for way in WAYS
+        ],
         "ours": call("slab:conductivity", cores=CORES, **ours),
         "paper": call("slab:paper_piece", cores=CORES, **piece),
     }

@@ -7,7 +7,8 @@ from .slab import PAPER
 
 def tables(data: dict) -> str:
     """All of them, as Markdown."""
-    return "\n".join([_head(data), _throughput(data["throughput"]), _precision(data)])
+    parts = _throughput(data["throughput"]), _pairing(data["pairing"]), _precision(data)
+    return "\n".join([_head(data), *parts])
 
 
 def _head(data: dict) -> str:
@@ -26,13 +27,28 @@ def _throughput(cases: list[dict]) -> str:
         "| --- | --- | --- | --- | --- |",
     ]
     for case in cases:
-        time = case["nanoseconds"]
-        cell = f"{time['median']:.1f} ({time['least']:.1f}–{time['largest']:.1f})"
         lines.append(
             f"| {case['n_particles']:,} | {case['realizations']} | {case['time_step']:g} "
-            f"| {case['steps']} | {cell} |"
+            f"| {case['steps']} | {_cell(case['nanoseconds'])} |"
         )
     return "\n".join(lines) + "\n"
+
+
+def _pairing(cases: list[dict]) -> str:
+    lines = [
+        "## Partners in 100 layers, on one core\n",
+        "Source: `pairing.py`; `seats` is what the library does.\n",
+        "| way | particles | ns per particle |",
+        "| --- | --- | --- |",
+    ]
+    for case in cases:
+        cells = case["way"], f"{case['n_particles']:,}", _cell(case["nanoseconds"])
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def _cell(time: dict) -> str:
+    return f"{time['median']:.1f} ({time['least']:.1f}–{time['largest']:.1f})"
 
 
 def _precision(data: dict) -> str:

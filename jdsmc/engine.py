@@ -2,7 +2,8 @@
 
 Every gas of the batch (sweep point x realization) has its own key and clock and never sees the
 others, so the batch is cut into equal parts: one per device, or on a CPU one per core, run in
-threads. Random numbers depend on point, realization and record alone, hence not on the cutting.
+threads. An accelerator advances all gases of a part at once, a CPU one after the other. Random
+numbers depend on point, realization and record alone, hence not on the cutting.
 """
 
 import itertools
@@ -26,8 +27,13 @@ def _start(scene, keys, options: Options):
     )
 
 
+TOGETHER = 20_000
+"""Particles of a homogeneous gas that a CPU advances at once: with fewer, starting each operation
+costs more than the operation."""
+
+
 @eqx.filter_jit
-def _advance(scene, keys, states, first_record, options: Options):
+def _advance(scene, keys, states, first_record, options: Options, together: int | None):
     """One chunk for every gas: records are (gases, records), samples (gases, ...)."""
 
     def one_gas(scene, key, state):
@@ -40,7 +46,8 @@ def _advance(scene, keys, states, first_record, options: Options):
         state, sample = scene.finish_chunk(state)
         return state, (records, sample)
 
-    return eqx.filter_vmap(one_gas, in_axes=(eqx.if_array(0), 0, 0))(scene, keys, states)
+    each, common = eqx.partition((scene, keys, states), eqx.is_array)
+    return lax.map(lambda gas: one_gas(*eqx.combine(gas, common)), each, batch_size=together)
 
 
 class Engine:
@@ -83,6 +90,7 @@ class Engine:
                 self._states[number],
                 first,
                 self.options,
+                _together(self._parts[number], self.options),
             )
             return state, jax.tree.map(lambda x: np.asarray(x, dtype=float), output)
 
@@ -117,6 +125,20 @@ def _cut(size: int) -> list[slice]:
     workers = _cores() if on_cpu else len(jax.devices())
     edges = np.linspace(0, size, min(workers, size) + 1).astype(int)
     return [slice(int(a), int(b)) for a, b in itertools.pairwise(edges)]
+
+
+def _together(part: slice, options: Options) -> int | None:
+    """How many gases of a part are advanced as one; None for one after the other.
+
+    A CPU is fastest with one gas at a time, which stays in its cache and whose scatters have plain
+    indices (1.3 to 1.8 times as fast in space). Many small homogeneous gases are put together, as
+    many as divide the part.
+    """
+    gases = part.stop - part.start
+    if jax.default_backend() != "cpu":
+        return gases
+    largest = 1 if options.in_space else max(1, TOGETHER // options.n_particles)
+    return max((n for n in range(2, largest + 1) if gases % n == 0), default=None)
 
 
 def _cores() -> int:

@@ -36,6 +36,11 @@ class Options:
         """Particles of one gas."""
         return self.plan.rows * self.plan.lanes
 
+    @property
+    def in_space(self) -> bool:
+        """True if particles have places: they are one row, not exchangeable ones in many."""
+        return self.plan.rows == 1
+
     @staticmethod
     def checked(
         n_particles: int,
