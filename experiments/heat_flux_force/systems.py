@@ -153,7 +153,7 @@ FULL = Size(
     | {("paper", 0.05): 4, ("paper", 0.025): 3, ("paper", 0.0125): 2},
     numbers=(500, 2_000),
     cooling=2,
-    kicks={(0.2, 0.1): 3, (0.4, 0.1): 2, (0.2, 0.039): 1},
+    kicks={(0.2, 0.1): 6, (0.4, 0.1): 4, (0.2, 0.039): 2},
     kick_options={"n_particles": 20_000, "n_realizations": 16, "n_kicks": 4, "duration": 10.0},
 )
 
