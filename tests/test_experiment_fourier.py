@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from experiments.conduction_limits.analysis import small_gradient_limit
 from experiments.fourier_flow_gravity import balance, effect, molecules, profiles
 from experiments.fourier_flow_gravity.figures import DRAW
 from experiments.fourier_flow_gravity.reference import COLUMNS, NUMBERS, table
@@ -135,3 +136,14 @@ def test_crossing_of_known_profiles():
 def test_eq_6_is_the_theory():
     assert molecules.prediction(0.1, 0.0) == 1.0
     assert molecules.prediction(0.1, 0.01) == pytest.approx(1 + 0.0092 + (4.8 + 5.037) * 1e-4)
+
+
+def test_limit_of_small_gradients():
+    """A coefficient that is quadratic in the gradient gives its value at zero, errors in proportion.
+
+    Weights (-1/3, 4/3) for gradients in the ratio 2: exact but for rounding.
+    """
+    gradient, error = np.array([0.04, 0.02]), np.array([0.003, 0.006])
+    value, uncertainty = small_gradient_limit(gradient, 1.02 - 5.0 * gradient**2, error)
+    assert value == pytest.approx(1.02, rel=1e-12)
+    assert uncertainty == pytest.approx(np.hypot(0.001, 0.008), rel=1e-12)

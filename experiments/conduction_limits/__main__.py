@@ -5,18 +5,21 @@ Hard spheres: κ over its first Sonine approximation is 1.025218, and the jump a
 molecules, whose conductivity is known exactly: 1.
 """
 
+import json
 import math
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
 import tyro
 
-from jdsmc import InelasticHardSpheres, MaxwellMolecules, run
+from jdsmc import InelasticHardSpheres, MaxwellMolecules, Result, run
 from jdsmc.result import format_estimate
 from jdsmc.scenarios import FourierFlow
 from jdsmc.theory import sonine_elastic
 
-from .analysis import coefficients
+from ..store import obtain
+from .analysis import coefficients, small_gradient_limit
 
 RESULTS = Path(__file__).parent / "results"
 JUMP = 2.4001 * math.sqrt(math.pi) / 2.0
@@ -29,24 +32,47 @@ LENGTH, LAYERS = 20.0, 160
 at the mean density; it is taken off, as is that of the time step (Hadjiconstantinou 2000)."""
 
 
-def main(full: bool = False):
+@dataclass(frozen=True)
+class Case:
+    """One gas between walls at each of the temperatures `COLD`."""
+
+    name: str
+    gas: str
+    options: dict
+    module: str = "scenarios/fourier_flow.py"
+
+    def request(self) -> str:
+        """Everything that decides the result, as text to compare with a file's."""
+        return json.dumps([asdict(self), COLD.tolist(), LENGTH, LAYERS], sort_keys=True)
+
+    def simulate(self) -> Result:
+        """Run it."""
+        scene = FourierFlow(GASES[self.gas], COLD, length=LENGTH, layers=LAYERS)
+        return run(scene, steps_per_record=8, progress=False, **self.options)
+
+
+def main(full: bool = False, out: Path | None = None, fresh: bool = False):
     """Measure the coefficients of both gases and write table.md.
 
     Args:
         full: a tenth of the variance; about ten minutes on two cores.
+        out: folder for simulations (*.h5, reused if they are what is asked for); by default
+            output/conduction_limits/small or full.
+        fresh: run every simulation again.
     """
+    store = out or Path("output/conduction_limits") / ("full" if full else "small")
+    store.mkdir(parents=True, exist_ok=True)
     lines = [
         "# Heat conduction at small gradients\n",
         f"L = {LENGTH:g} λ0, Maxwell walls, coefficients from the middle half of the slab; one "
-        "standard error in brackets. The expected values are those of vanishing gradient.\n",
+        "standard error in brackets. The expected values are those of vanishing gradient; the rows "
+        "with ε = 0 are extrapolated with ε².\n",
         "| gas | T_-/T_+ | ε | κ/κ0 | expected | jump, cold | jump, hot | mean jump | expected |",
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- |",
     ]
-    for number, (name, gas) in enumerate(GASES.items()):
-        scene = FourierFlow(gas, COLD, length=LENGTH, layers=LAYERS)
-        options = {"steps_per_record": 8, "seed": number, "progress": False}
-        result = run(scene, **(FULL if full else SMALL), **options)
-        lines += _rows(name, result)
+    for number, name in enumerate(GASES):
+        options = (FULL if full else SMALL) | {"seed": number}
+        lines += _rows(name, obtain(Case(name.replace(" ", "_"), name, options), store, fresh))
     text = "\n".join(lines) + "\n"
     folder = RESULTS / "full" if full else RESULTS
     folder.mkdir(parents=True, exist_ok=True)
@@ -55,27 +81,29 @@ def main(full: bool = False):
 
 
 def _rows(name: str, result) -> list[str]:
-    """One row a wall temperature."""
+    """One row a wall temperature, and the limit of both."""
     found = coefficients(result)
     spheres = name == "hard spheres"
     expected = sonine_elastic.conductivity_ratio(10) if spheres else 1.0
     correction = _discretization(result) if spheres else np.ones_like(COLD)
+    found["conductivity"] = tuple(x / correction for x in found["conductivity"])
+    gradient = 0.94 * found["mean_gradient"][0]
+    limit = {name: small_gradient_limit(gradient, *found[name]) for name in COLUMNS}
     rows = []
     for k, cold in enumerate(COLD):
-        value, error = (x[k] / correction[k] for x in found["conductivity"])
-        cells = [
-            *(name, f"{cold:g}", f"{0.94 * found['mean_gradient'][0][k]:.3f}"),
-            *(format_estimate(value, error), f"{expected:.6f}"),
-            *(_cell(found, n, k) for n in ("jump_cold", "jump_hot", "jump")),
-            f"{JUMP:.3f}" if spheres else "",
-        ]
-        rows.append("| " + " | ".join(cells) + " |")
-    return rows
+        values = {column: tuple(float(x[k]) for x in found[column]) for column in COLUMNS}
+        rows.append(_row(name, f"{cold:g}", f"{gradient[k]:.3f}", values, expected))
+    return [*rows, _row(name, "", "0", limit, expected)]
 
 
-def _cell(found, name: str, k: int) -> str:
-    value, error = (float(x[k]) for x in found[name])
-    return format_estimate(value, error)
+COLUMNS = ("conductivity", "jump_cold", "jump_hot", "jump")
+
+
+def _row(name: str, cold: str, gradient: str, values: dict, expected: float) -> str:
+    conductivity, *jumps = (format_estimate(*values[column]) for column in COLUMNS)
+    known = f"{JUMP:.3f}" if name == "hard spheres" else ""
+    cells = [name, cold, gradient, conductivity, f"{expected:.6f}", *jumps, known]
+    return "| " + " | ".join(cells) + " |"
 
 
 def _discretization(result) -> np.ndarray:

@@ -58,3 +58,10 @@ def _jump(power, slope, wall, side: int, exponent: float, pressure):
     gradient = slope / (1.0 + exponent) / temperature**exponent
     density = 2.0 * pressure / temperature
     return -side * (temperature - wall) * density / gradient
+
+
+def small_gradient_limit(gradient, value, error) -> tuple[float, float]:
+    """Value and error at ε = 0 of two independent values, taken as linear in ε²."""
+    first, second = gradient**2
+    weight = np.array([-second, first]) / (first - second)
+    return float(weight @ value), float(np.hypot(*(weight * error)))
