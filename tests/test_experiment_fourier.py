@@ -139,7 +139,7 @@ def test_eq_6_is_the_theory():
 
 
 def test_limit_of_small_gradients():
-    """A coefficient that is quadratic in the gradient gives its value at zero, errors in proportion.
+    """A coefficient quadratic in the gradient gives its value at zero, errors in proportion.
 
     Weights (-1/3, 4/3) for gradients in the ratio 2: exact but for rounding.
     """
