@@ -368,6 +368,14 @@ def test_no_steady_state_to_wait_for(restitution, shear_rate):
 # Interruption
 
 
+@pytest.fixture(autouse=True)
+def usual_ctrl_c():
+    """Ctrl-C as in a terminal: a background job of a shell starts with it ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 def interrupt_at(monkeypatch, chunk, send):
     """Have Engine.advance send the signal of Ctrl-C while it computes this chunk."""
     advance = Engine.advance
