@@ -1,11 +1,32 @@
 """Tables in Markdown: quoted numbers and statements beside what was measured."""
 
-from collections.abc import Iterable, Sequence
+import platform
+from collections.abc import Iterable, Mapping, Sequence
+
+from jdsmc import Result
 
 from .claims import Claim, Finding
 from .compare import Comparison, shown
 
 HOLDS = {True: "holds", False: "**does not hold**", None: "not resolved"}
+
+
+def document(sections: Mapping[str, Iterable[str]]) -> str:
+    """A page of titles and their lines; the first title is that of the page."""
+    lines = []
+    for level, (title, body) in enumerate(sections.items()):
+        lines += [f"{'#' if level == 0 else '##'} {title}", "", *body, ""]
+    return "\n".join(lines)
+
+
+def versions(results: Sequence[Result]) -> str:
+    """A sentence on what made the results."""
+    attrs = results[0].attrs
+    commits = sorted({str(result.attrs["commit"]) for result in results})
+    return (
+        f"jdsmc {attrs['jdsmc_version']} at {', '.join(commits)} (+: with changes), jax "
+        f"{attrs['jax_version']} on {attrs['backend']}, Python {platform.python_version()}."
+    )
 
 
 def grid(header: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:

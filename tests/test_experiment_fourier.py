@@ -1,10 +1,5 @@
 """The reproduction of the Fourier flow: every file at a tiny size, and its analysis exactly."""
 
-import os
-import subprocess
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -16,35 +11,12 @@ from experiments.fourier_flow_gravity.reference import COLUMNS, NUMBERS, table
 from experiments.fourier_flow_gravity.statements import CLAIMS
 from experiments.fourier_flow_gravity.systems import COMBINATIONS, FULL, SMALL, cases
 
-TINY_RUN = """
-import sys
-from pathlib import Path
-from experiments.fourier_flow_gravity.__main__ import reproduce
-from experiments.fourier_flow_gravity.data import measure
-from experiments.fourier_flow_gravity.systems import TINY
-folder = Path(sys.argv[1])
-for path in reproduce(TINY, folder, fresh=False):
-    print("made", path)
-measure(TINY, folder, fresh=False)
-"""
+from . import tiny_run
 
 
 def test_tiny_reproduction(tmp_path):
-    """All tables and figures from gases of 256 particles; a second call simulates nothing.
-
-    In a process of its own, where XLA may compile in haste.
-    """
-    done = subprocess.run(
-        [sys.executable, "-c", TINY_RUN, str(tmp_path)],
-        env=os.environ | {"XLA_FLAGS": "--xla_backend_optimization_level=0"},
-        cwd=Path(__file__).parent.parent,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    first, *_, again = done.stdout.split("made ")
-    assert "running" in first and "running" not in again
+    """All tables and figures from gases of 256 particles; a second call simulates nothing."""
+    tiny_run.reproduce("fourier_flow_gravity", tmp_path)
     files = [tmp_path / f"{name}.{'md' if name == 'table' else 'png'}" for name in ("table", *DRAW)]
     assert all(path.stat().st_size > 1000 for path in files)
     text = files[0].read_text()

@@ -65,3 +65,12 @@ def small_gradient_limit(gradient, value, error) -> tuple[float, float]:
     first, second = gradient**2
     weight = np.array([-second, first]) / (first - second)
     return float(weight @ value), float(np.hypot(*(weight * error)))
+
+
+def discretization(density, temperature, width: float, step: float):
+    """Relative error of κ: (32/225π)(Δz/λ)² + (64/675π)(v0 dt/λ)², λ and v0 those of n and T.
+
+    Alexander, Garcia and Alder (1998) for layers, Hadjiconstantinou (2000) for time steps.
+    """
+    layers = 32.0 / (225.0 * np.pi) * (width * density) ** 2
+    return layers + 64.0 / (675.0 * np.pi) * temperature * (step * density) ** 2

@@ -7,7 +7,6 @@ the local mean free path and speed: κ (1 + (32/225π)(Δz/λ)²) (Alexander, Ga
 changes by their average over the slab.
 """
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,6 +18,9 @@ import tyro
 from jdsmc import InelasticHardSpheres, run
 from jdsmc.result import format_estimate
 from jdsmc.scenarios import FourierFlow
+
+from ..publish import results_folder
+from .analysis import discretization
 
 RESULTS = Path(__file__).parent / "results"
 COLD, LENGTH = 0.2, 10.0
@@ -88,9 +90,7 @@ def _law(result, step: float) -> float:
     """Relative error of the flux by the known laws."""
     steady = result.to_xarray().to_dataset()
     density, temperature = steady["density"].values, steady["temperature"].values
-    width = LENGTH / len(density)
-    cells = 32.0 / (225.0 * math.pi) * (width * density) ** 2
-    return float(np.mean(cells + 64.0 / (675.0 * math.pi) * temperature * (step * density) ** 2))
+    return float(np.mean(discretization(density, temperature, LENGTH / len(density), step)))
 
 
 def main(full: bool = False):
@@ -100,8 +100,7 @@ def main(full: bool = False):
         full: four times longer runs.
     """
     mpl.use("agg")
-    folder = RESULTS / "full" if full else RESULTS
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = results_folder(RESULTS, "full" if full else "small")
     found = []
     for seed, setting in enumerate(SETTINGS):
         found.append(measure(setting, seed, FULL_TIME if full else SMALL_TIME))

@@ -1,12 +1,12 @@
 """Run everything: `python -m experiments.fourier_flow_gravity`; --help lists the options."""
 
-import shutil
 import time
 from pathlib import Path
 
 import matplotlib as mpl
 import tyro
 
+from ..publish import keep
 from . import report
 from .data import measure
 from .figures import draw_all
@@ -28,7 +28,7 @@ def main(full: bool = False, out: Path | None = None, fresh: bool = False):
     size = FULL if full else SMALL
     folder = out or Path("output/fourier_flow_gravity") / size.name
     table, *figures = reproduce(size, folder, fresh)
-    keep([table, *figures], size)
+    keep([table, *figures], RESULTS, size.name)
     print(f"{table} and {len(figures)} figures in {time.perf_counter() - start:.0f} s")
 
 
@@ -39,14 +39,6 @@ def reproduce(size: Size, folder: Path, fresh: bool) -> list[Path]:
     data = measure(size, folder, fresh)
     figures = draw_all(data, folder)
     return [report.write(data, folder), *figures]
-
-
-def keep(paths: list[Path], size: Size) -> None:
-    """Copy table and figures beside the code: results/ (small), results/full/ (full)."""
-    folder = RESULTS if size.name == "small" else RESULTS / size.name
-    folder.mkdir(parents=True, exist_ok=True)
-    for path in paths:
-        shutil.copy(path, folder / path.name)
 
 
 if __name__ == "__main__":

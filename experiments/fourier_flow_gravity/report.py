@@ -1,6 +1,5 @@
 """table.md: all tables with what the reader must know to read them."""
 
-import platform
 from pathlib import Path
 
 from jdsmc.conduction import WINDOW
@@ -39,11 +38,8 @@ def write(data: Measurements, folder: Path) -> Path:
         "Misprints in the paper": markdown.grid(["place", "what was taken"], MISPRINTS),
         "Simulations": table.simulations(data),
     }
-    lines = []
-    for level, (title, body) in enumerate(sections.items()):
-        lines += [f"{'#' if level == 0 else '##'} {title}", "", *body, ""]
     path = folder / "table.md"
-    path.write_text("\n".join(lines))
+    path.write_text(markdown.document(sections))
     return path
 
 
@@ -109,14 +105,10 @@ def rows_note(data: Measurements) -> str:
 def provenance(data: Measurements) -> list[str]:
     """Versions, commits and machine."""
     results = list(data.results.values())
-    attrs = results[0].attrs
-    commits = sorted({str(result.attrs["commit"]) for result in results})
     seconds = sum(float(result.attrs["seconds"]) for result in results)
     return [
         "Tahiri, Tij and Santos, heat conduction under gravity (2000). Made by "
         "`python -m experiments.fourier_flow_gravity`; do not edit.",
         "",
-        f"jdsmc {attrs['jdsmc_version']} at {', '.join(commits)} (+: with changes), jax "
-        f"{attrs['jax_version']} on {attrs['backend']}, Python {platform.python_version()}. The "
-        f"simulations took {seconds / 60:.0f} minutes.",
+        f"{markdown.versions(results)} The simulations took {seconds / 60:.0f} minutes.",
     ]

@@ -1,6 +1,5 @@
 """table.md: all tables with what the reader must know to read them."""
 
-import platform
 from pathlib import Path
 
 from .. import markdown
@@ -36,11 +35,8 @@ def write(data: Measurements, folder: Path) -> Path:
         "Misprints in the paper": markdown.grid(["place", "what was taken"], MISPRINTS),
         "Simulations": [SIMULATIONS_NOTE, "", *table.simulations(data)],
     }
-    lines = []
-    for level, (title, body) in enumerate(sections.items()):
-        lines += [f"{'#' if level == 0 else '##'} {title}", "", *body, ""]
     path = folder / "table.md"
-    path.write_text("\n".join(lines))
+    path.write_text(markdown.document(sections))
     return path
 
 
@@ -96,14 +92,10 @@ SIMULATIONS_NOTE = (
 def provenance(data: Measurements) -> list[str]:
     """Versions, commits and machine."""
     results = [result for pool in data.pools.values() for result in pool.results]
-    attrs = results[0].attrs
-    commits = sorted({str(result.attrs["commit"]) for result in results})
     seconds = sum(pool.seconds for pool in data.pools.values())
     return [
         "Montanero, Santos and Garzó, Physica A 376, 75 (2007). Made by "
         "`python -m experiments.heat_flux_force`; do not edit.",
         "",
-        f"jdsmc {attrs['jdsmc_version']} at {', '.join(commits)} (+: with changes), jax "
-        f"{attrs['jax_version']} on {attrs['backend']}, Python {platform.python_version()}. The "
-        f"simulations took {seconds / 60:.0f} minutes.",
+        f"{markdown.versions(results)} The simulations took {seconds / 60:.0f} minutes.",
     ]

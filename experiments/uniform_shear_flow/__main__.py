@@ -1,13 +1,13 @@
 """Run everything: `python -m experiments.uniform_shear_flow [--full] [--out FOLDER] [--fresh]`."""
 
 import json
-import shutil
 import time
 from pathlib import Path
 
 import matplotlib as mpl
 import tyro
 
+from ..publish import keep
 from ..store import obtain, program
 from . import report, report_slab, slab, symmetry
 from .data import Measurements
@@ -39,7 +39,7 @@ def main(full: bool = False, out: Path | None = None, fresh: bool = False):
     figures = [*draw_all(data, study, folder), *draw_slabs(slabs, data, folder)]
     inhomogeneous = report_slab.sections(slabs, data)
     table = report.write(data, study, inhomogeneous, size, folder, fresh)
-    keep([table, *figures], size)
+    keep([table, *figures], RESULTS, size.name)
     print(f"{table} and {len(figures)} figures in {time.perf_counter() - start:.0f} s")
 
 
@@ -61,14 +61,6 @@ def _symmetry(size: Size, folder: Path, fresh: bool) -> dict:
     kept = {"options": size.symmetry, "program": program(MODULE), "values": values}
     path.write_text(json.dumps(kept, indent=1))
     return values
-
-
-def keep(paths: list[Path], size: Size) -> None:
-    """Copy table and figures beside the code: results/ (small), results/full/ (full)."""
-    folder = RESULTS if size.name == "small" else RESULTS / size.name
-    folder.mkdir(parents=True, exist_ok=True)
-    for path in paths:
-        shutil.copy(path, folder / path.name)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,6 @@
 
 import hashlib
 import json
-import platform
 from pathlib import Path
 
 import numpy as np
@@ -69,11 +68,8 @@ def write(
         "Viscometric functions": table.viscometric(data),
         "Simulations": table.simulations(data),
     }
-    lines = []
-    for level, (title, body) in enumerate(sections.items()):
-        lines += [f"{'#' if level == 0 else '##'} {title}", "", *body, ""]
     path = folder / "table.md"
-    path.write_text("\n".join(lines))
+    path.write_text(markdown.document(sections))
     return path
 
 
@@ -93,14 +89,11 @@ CONVERGENCE_NOTE = (
 
 def provenance(data: Measurements) -> list[str]:
     """Versions, commits and machine."""
-    attrs = next(iter(data.results.values())).attrs
-    commits = sorted({str(r.attrs["commit"]) for r in data.results.values()})
     return [
         "Astillero and Santos (2005). Made by "
         "`python -m experiments.uniform_shear_flow`; do not edit.",
         "",
-        f"jdsmc {attrs['jdsmc_version']} at {', '.join(commits)} (+: with changes), jax "
-        f"{attrs['jax_version']} on {attrs['backend']}, Python {platform.python_version()}.",
+        markdown.versions(list(data.results.values())),
     ]
 
 
