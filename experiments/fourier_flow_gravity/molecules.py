@@ -11,9 +11,10 @@ from jdsmc.gravity_effect import at_equal_gradient, linear_response, means
 from jdsmc.stats import jackknife
 
 FIRST_ORDER = 46.0 / 5.0
-WINDOW = 3.0
-"""λ0: T² is nearly linear, so that a wide window costs no bias that is seen (table.md)."""
-WINDOWS = (1.0, 2.0, 3.0)
+WINDOW = 0.3
+"""Share of the slab: T² is nearly linear, so that a wide window costs no bias that is seen
+(table.md), and the error of the slope falls faster than 1/window."""
+WINDOWS = (0.1, 0.2, 0.3)
 
 
 def second_order(gradient):
@@ -29,7 +30,6 @@ def prediction(gradient, strength):
 class Response(NamedTuple):
     """B, C and κ*(g = 0) beside eq. (6)."""
 
-    window: float
     found: dict[str, Estimate]
 
     @property
@@ -40,28 +40,35 @@ class Response(NamedTuple):
         return {n: (self.found[n].value - w) / self.found[n].error for n, w in wanted.items()}
 
 
-def response(result: Result, window: float = WINDOW) -> Response:
-    """B, C and κ* at the point halfway in mean free paths at g = 0, and where ε is the same."""
-    return Response(window, linear_response(result, window))
+def response(result: Result, window: float) -> Response:
+    """B, C and κ* at the point halfway in mean free paths at g = 0, and where ε is the same.
+
+    `window`: of the slope, as a share of the slab.
+    """
+    return Response(linear_response(result, window * _length(result)))
 
 
-def points(result: Result, window: float = WINDOW):
-    """g*, Δκ* with errors, and Δκ* of eq. (6), at the points of equal ε."""
-    effect = at_equal_gradient(result, window)
+def points(result: Result):
+    """ε0, g* and Δκ* with errors, at the points of equal ε."""
+    effect = at_equal_gradient(result, WINDOW * _length(result))
     gradient = float(effect["reduced_gradient"].sel(gravity=0.0))
-    strength = effect["reduced_gravity"].values
     change = Estimate(effect["kappa_star_change"].values, effect["kappa_star_change_error"].values)
-    return strength, change, prediction(gradient, strength) - 1.0
+    return gradient, effect["reduced_gravity"].values, change
 
 
-def profile(result: Result, window: float = WINDOW):
+def profile(result: Result):
     """𝒩/L and κ* with errors of every layer, at g = 0."""
     free = result.to_xarray().indexes["gravity"].get_loc(0.0)
     averages = {name: value[free] for name, value in means(result).items()}
-    length, exponent = (float(result.attrs[n]) for n in ("parameter_length", "viscosity_exponent"))
+    length, exponent = _length(result), float(result.attrs["viscosity_exponent"])
 
     def local(one: dict) -> dict:
-        return conduction.reduced(conduction.profiles(one), 0.0, length, exponent, window)
+        profiles = conduction.profiles(one)
+        return conduction.reduced(profiles, 0.0, length, exponent, WINDOW * length)
 
     value, error = jackknife(averages, local, axis=0)
     return value["mean_free_paths"] / length, Estimate(value["kappa_star"], error["kappa_star"])
+
+
+def _length(result: Result) -> float:
+    return float(result.attrs["parameter_length"])

@@ -84,7 +84,7 @@ MAXWELL_NOTE = (
     "the point halfway in mean free paths at g = 0, and at the points with the same ε0. In "
     "brackets the distance from eq. (6) in errors. Eq. (6) holds far from walls and to second "
     "order in g; what is left of the walls shows in κ*(g = 0), which should be 1, in the change "
-    f"with L and in the window (λ'; {molecules.WINDOW:g} in the figure)."
+    f"with L and in the window (λ'; {molecules.WINDOW:g} L in the figure)."
 )
 
 

@@ -128,7 +128,8 @@ SOME_GRAVITY = (
 
 MAXWELL_COLD, MAXWELL_WALL = 0.2, "bgk"
 MAXWELL_GRAVITY = (-0.016, -0.008, 0.0, 0.008, 0.016)
-"""Maxwell molecules: between walls of type II."""
+"""Maxwell molecules: between walls of type II. These g are for L = 10 λ0; ε, and with it the effect
+of gravity, falls as 1/L, so that g is made larger in proportion to L."""
 
 HALF_STEP = {"time_step": TIME_STEP / 2, "steps_per_record": 16}
 
@@ -160,7 +161,7 @@ SMALL = Size(
     },
     maxwell={
         10.0: {"n_particles": 5000, "n_realizations": 8, "duration": 400.0},
-        20.0: {"n_particles": 5000, "n_realizations": 8, "duration": 600.0},
+        20.0: {"n_particles": 5000, "n_realizations": 8, "duration": 1_000.0},
     },
 )
 
@@ -169,7 +170,10 @@ FULL = Size(
     gravity=dict(zip(COMBINATIONS, TABLE_GRAVITY, strict=True)),
     options={"n_particles": 5000, "n_realizations": 16, "duration": 450.0},
     variants=SMALL.variants,
-    maxwell={10.0: {"n_particles": 5000, "n_realizations": 16, "duration": 600.0}},
+    maxwell={
+        10.0: {"n_particles": 5000, "n_realizations": 16, "duration": 600.0},
+        20.0: {"n_particles": 10_000, "n_realizations": 16, "duration": 1_600.0},
+    },
 )
 
 
@@ -215,6 +219,7 @@ def cases(size: Size) -> dict[str, Case]:
         found.append(Case(*state, layers=options.pop("layers"), options=options))
     for length, options in size.maxwell.items():
         layers = round(size.per_length * length)
-        state = (MAXWELL_COLD, MAXWELL_WALL, MAXWELL_GRAVITY, "Maxwell molecules", length, layers)
+        gravity = tuple(round(g * length / 10.0, 6) for g in MAXWELL_GRAVITY)
+        state = (MAXWELL_COLD, MAXWELL_WALL, gravity, "Maxwell molecules", length, layers)
         found.append(Case(maxwell_name(length), *state, options=options))
     return {case.name: case for case in found}

@@ -190,7 +190,7 @@ def maxwell(data: Measurements) -> list[str]:
             lines.append(
                 [
                     f"{length:g}",
-                    f"{window:g}",
+                    f"{window * length:g}",
                     str(found["reduced_gradient"]),
                     *(f"{found[n]} ({off[n]:+.1f} σ)" for n in ("kappa_star", "B", "C")),
                     f"1, {molecules.FIRST_ORDER:g}, {molecules.second_order(gradient):.1f}",

@@ -3,8 +3,6 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from jdsmc.gravity_effect import at_equal_gradient
-
 from ...style import COLOURS, band, figure
 from .. import balance as laws
 from .. import budget as study
@@ -93,10 +91,7 @@ def maxwell_molecules(data: Measurements) -> Figure:
         crossed, ratio = molecules.profile(result)
         band(axes[0, 0], crossed, *ratio, color=colour)
         axes[0, 0].plot([], [], color=colour, label=f"L = {length:g}")
-        strength, change, _ = molecules.points(result)
-        gradient = float(
-            at_equal_gradient(result, molecules.WINDOW)["reduced_gradient"].sel(gravity=0.0)
-        )
+        gradient, strength, change = molecules.points(result)
         label = f"L = {length:g}, ε0 = {gradient:.3f}"
         axes[0, 1].errorbar(strength, *change, fmt="o", ms=5, capsize=2, color=colour, label=label)
         line = np.linspace(1.15 * strength.min(), 1.15 * strength.max(), 60)
