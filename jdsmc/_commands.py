@@ -23,8 +23,9 @@ GASES = ("ihs", "ehs", "ehs-measured")
 class Numerics:
     """How a run is made."""
 
-    particles: int = 20_000
-    """Particles of one realization (at least 64, with a divisor from 64 to 1024)."""
+    particles: int | None = None
+    """Particles of one realization (at least 64, in a homogeneous gas with a divisor from 64 to
+    1024); by default 20000, or 50 for each layer of a Fourier flow."""
     realizations: int = 8
     """Independent realizations (at least 4); the error bars come from them."""
     seed: int = 0

@@ -21,7 +21,7 @@ from .steady import FIRST_TEST, SteadyTracker
 def run(
     scene,
     *,
-    n_particles: int = 20_000,
+    n_particles: int | None = None,
     n_realizations: int = 8,
     seed: int = 0,
     duration: float | None = None,
@@ -44,7 +44,8 @@ def run(
     Arguments:
         scene: a scene from `jdsmc.scenarios`; one-dimensional arrays among its numbers are swept
             (their product, in one compiled program).
-        n_particles: particles of one realization, at least 64; must have a divisor from 64 to 1024.
+        n_particles: particles of one realization, at least 64, in a homogeneous gas a number with
+            a divisor from 64 to 1024; by default `scene.default_particles`.
         n_realizations: independent realizations, at least 4; all error bars come from them.
         seed: of all random numbers; the same seed gives the same result.
         duration: time to simulate (τ0).
@@ -67,7 +68,8 @@ def run(
     if not hasattr(scene, "steady_observables"):
         raise TypeError(f"scene must be one of jdsmc.scenarios, got {scene!r}.")
     options = Options.checked(
-        *(n_particles, time_step, splitting, dtype, steps_per_record),
+        scene.default_particles if n_particles is None else n_particles,
+        *(time_step, splitting, dtype, steps_per_record),
         records=_records(steps_per_record, getattr(scene, "samples_per_record", 1)),
         in_space=getattr(scene, "in_space", False),
     )

@@ -129,6 +129,13 @@ def test_bad_input_is_refused(changed, message):
         FourierFlow(**good | changed)
 
 
+@pytest.mark.parametrize(("layers", "particles"), [(20, 5_000), (200, 10_000)])
+def test_particles_by_default(layers, particles):
+    scene = FourierFlow(SPHERES, 0.5, length=4.0, layers=layers)
+    result = run(scene, duration=0.1, n_realizations=4, steps_per_record=1, progress=False)
+    assert result.attrs["n_particles"] == particles
+
+
 def test_a_step_that_crosses_the_slab_is_refused():
     scene = FourierFlow(SPHERES, 0.5, length=0.1, layers=1)
     with pytest.raises(ValueError, match="time_step"):

@@ -57,6 +57,7 @@ class HeatFluxForce(eqx.Module):
     densities: ClassVar[dict[str, float]] = {"marginal_x": 1.0}
     monitored: ClassVar[tuple[str, ...]] = ("fourth", "flux3", "flux5")
     default_observable: ClassVar[str] = "conductivity_ratio"
+    default_particles: ClassVar[int] = 20_000
 
     gas: AbstractGas
     field: Physical = eqx.field(converter=check.physical)

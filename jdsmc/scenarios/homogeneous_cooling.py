@@ -50,6 +50,7 @@ class HomogeneousCooling(eqx.Module):
     densities: ClassVar[dict[str, float]] = {"marginal_x": 0.5, "marginal_y": 0.5, "speed": 1.0}
     monitored: ClassVar[tuple[str, ...]] = ("fourth", "sixth", "cubed")
     default_observable: ClassVar[str] = "relative_speed_cubed"
+    default_particles: ClassVar[int] = 20_000
 
     gas: AbstractGas
 

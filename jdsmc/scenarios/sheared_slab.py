@@ -87,6 +87,7 @@ class ShearedSlab(eqx.Module):
     densities: ClassVar[dict[str, float]] = {}
     monitored: ClassVar[tuple[str, ...]] = ("thermal", "shear", "tilt")
     default_observable: ClassVar[str] = "shear_stress"
+    default_particles: ClassVar[int] = 20_000
     in_space: ClassVar[bool] = True
     axis: ClassVar[str] = "y"
     additive: ClassVar[tuple[str, ...]] = (

@@ -48,6 +48,7 @@ class UniformShear(eqx.Module):
     densities: ClassVar[dict[str, float]] = {"marginal_x": 0.5, "marginal_y": 0.5, "speed": 1.0}
     monitored: ClassVar[tuple[str, ...]] = ("temperature", "xy", "xx", "fourth")
     default_observable: ClassVar[str] = "shear_stress"
+    default_particles: ClassVar[int] = 20_000
 
     gas: AbstractGas
     shear_rate: Physical = eqx.field(converter=check.physical)
