@@ -7,20 +7,22 @@ the local mean free path and speed: κ (1 + (32/225π)(Δz/λ)²) (Alexander, Ga
 changes by their average over the slab.
 """
 
-from dataclasses import dataclass
+import json
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import matplotlib as mpl
-import matplotlib.pyplot as plt
 import numpy as np
 import tyro
 
-from jdsmc import InelasticHardSpheres, run
+from jdsmc import InelasticHardSpheres, Result, run
 from jdsmc.result import format_estimate
 from jdsmc.scenarios import FourierFlow
 
 from ..publish import results_folder
+from ..store import obtain
 from .analysis import discretization
+from .convergence_figure import draw, relative
 
 RESULTS = Path(__file__).parent / "results"
 COLD, LENGTH = 0.2, 10.0
@@ -49,6 +51,41 @@ SETTINGS = (
 
 
 @dataclass(frozen=True)
+class Case:
+    """The simulation of one setting."""
+
+    seed: int
+    setting: Setting
+    duration: float
+    module: str = "scenarios/fourier_flow.py"
+
+    @property
+    def name(self) -> str:
+        """Name of its file."""
+        return f"convergence_{self.seed:02}"
+
+    def request(self) -> str:
+        """Everything that decides the result, as text to compare with a file's."""
+        return json.dumps([asdict(self), COLD, LENGTH, TOTAL], sort_keys=True)
+
+    def simulate(self) -> Result:
+        """Run it."""
+        setting = self.setting
+        scene = FourierFlow(InelasticHardSpheres(1.0), COLD, length=LENGTH, layers=setting.layers)
+        return run(
+            scene,
+            n_particles=setting.particles,
+            n_realizations=TOTAL // setting.particles,
+            duration=self.duration,
+            time_step=setting.time_step,
+            splitting=setting.splitting,
+            steps_per_record=8,
+            seed=self.seed,
+            progress=False,
+        )
+
+
+@dataclass(frozen=True)
 class Measured:
     """Fluxes of one setting with their errors, the step really taken, and the known laws."""
 
@@ -59,25 +96,13 @@ class Measured:
     law: float
 
 
-def measure(setting: Setting, seed: int, duration: float) -> Measured:
-    """Run one setting."""
-    scene = FourierFlow(InelasticHardSpheres(1.0), COLD, length=LENGTH, layers=setting.layers)
-    result = run(
-        scene,
-        n_particles=setting.particles,
-        n_realizations=TOTAL // setting.particles,
-        duration=duration,
-        time_step=setting.time_step,
-        splitting=setting.splitting,
-        steps_per_record=8,
-        seed=seed,
-        progress=False,
-    )
+def measure(setting: Setting, result: Result) -> Measured:
+    """What the study needs of a simulation."""
     data = result.to_xarray()["realizations"].to_dataset()
     walls = 0.5 * (data["heat_flux_cold_wall"] + data["heat_flux_hot_wall"]).values
     sampled = data["mean_heat_flux"].values
     step = float(np.mean(np.diff(result.series["time"].values)[1:])) / (
-        8 * scene.samples_per_record
+        8 * FourierFlow.samples_per_record
     )
     return Measured(setting, _mean(sampled), _mean(walls), step, _law(result, step))
 
@@ -93,25 +118,27 @@ def _law(result, step: float) -> float:
     return float(np.mean(discretization(density, temperature, LENGTH / len(density), step)))
 
 
-def main(full: bool = False):
+def main(full: bool = False, out: Path | None = None, fresh: bool = False):
     """Measure every setting; write convergence.md and convergence.png.
 
     Args:
-        full: four times longer runs.
+        full: four times longer runs, about twenty minutes on two cores.
+        out: folder for simulations (*.h5, reused if they are what is asked for); by default
+            output/conduction_limits/small or full.
+        fresh: run every simulation again.
     """
     mpl.use("agg")
-    folder = results_folder(RESULTS, "full" if full else "small")
+    size = "full" if full else "small"
+    store = out or Path("output/conduction_limits") / size
+    store.mkdir(parents=True, exist_ok=True)
     found = []
     for seed, setting in enumerate(SETTINGS):
-        found.append(measure(setting, seed, FULL_TIME if full else SMALL_TIME))
+        case = Case(seed, setting, FULL_TIME if full else SMALL_TIME)
+        found.append(measure(setting, obtain(case, store, fresh)))
         print(_row(found[-1], found[0]), flush=True)
+    folder = results_folder(RESULTS, size)
     (folder / "convergence.md").write_text(_table(found))
-    _draw(found).savefig(folder / "convergence.png", dpi=130)
-
-
-def _relative(one: tuple[float, float], reference: float) -> tuple[float, float]:
-    """Difference from the reference in percent, and its error (that of `one`)."""
-    return 100 * (one[0] / reference - 1), 100 * abs(one[1] / reference)
+    draw(found, LENGTH).savefig(folder / "convergence.png", dpi=130)
 
 
 def _table(found: list[Measured]) -> str:
@@ -135,48 +162,10 @@ def _row(one: Measured, reference: Measured) -> str:
     cells = [
         *(s.study, s.splitting, f"{s.time_step:g}", f"{one.step:.4f}"),
         *(str(s.layers), str(s.particles)),
-        *(format_estimate(*_relative(x, reference.walls[0])) for x in (one.walls, one.sampled)),
+        *(format_estimate(*relative(x, reference.walls[0])) for x in (one.walls, one.sampled)),
         f"{100 * one.law:.3f}",
     ]
     return "| " + " | ".join(cells) + " |"
-
-
-def _draw(found: list[Measured]):
-    """Three panels: against dt, layer width, and particles per layer."""
-    figure, panels = plt.subplots(1, 3, figsize=(11, 3.6), sharey=True, layout="constrained")
-    reference = found[0].walls[0]
-
-    def points(panel, chosen, x, values, marker, label, filled=False):
-        pairs = [_relative(getattr(one, values), reference) for one in chosen]
-        y, error = np.array(pairs).T
-        fill = None if filled else "none"
-        panel.errorbar(x, y, error, fmt=marker, mfc=fill, capsize=2, ms=5, label=label)
-
-    strang = [o for o in found if o.setting.splitting == "strang"]
-    steps = [o for o in strang if o.setting.study in ("defaults", "time step")]
-    lie = [o for o in found if o.setting.splitting == "lie"]
-    for values, marker in (("walls", "s"), ("sampled", "o")):
-        x = np.array([o.step for o in steps])
-        points(panels[0], steps, x, values, marker, f"Strang, {values}", filled=True)
-        points(panels[0], lie, [o.step for o in lie], values, marker, f"Lie, {values}")
-    layers = [o for o in strang if o.setting.study in ("defaults", "layers")]
-    width = np.array([LENGTH / o.setting.layers for o in layers])
-    points(panels[1], layers, width, "walls", "s", "walls")
-    order = np.argsort(width)
-    law = 100 * (np.array([o.law for o in layers]) - layers[0].law)
-    panels[1].plot(width[order], law[order], "k-", lw=1, label="(32/225π)⟨(Δz/λ)²⟩")
-    crowd = [o for o in strang if o.setting.study in ("defaults", "particles")]
-    number = [o.setting.particles / o.setting.layers for o in crowd]
-    points(panels[2], crowd, number, "walls", "s", "walls")
-    panels[2].set_xscale("log")
-    for panel, label in zip(panels, ("dt/τ0", "Δz/λ0", "particles per layer"), strict=True):
-        panel.axhspan(-0.3, 0.3, color="0.9", zorder=0)
-        panel.axhline(0, color="0.6", lw=0.8)
-        panel.set_xlabel(label)
-        panel.legend(fontsize=8, frameon=False)
-    panels[0].set_xlim(left=0)
-    panels[0].set_ylabel("heat flux, % off the default (walls)")
-    return figure
 
 
 if __name__ == "__main__":

@@ -117,8 +117,8 @@ class FourierFlow(eqx.Module):
     def default_particles(self) -> int:
         """Fifty in a layer, at least 5000 as in the paper.
 
-        More would only spend their time on the way to the steady state: with five in a layer the
-        heat flux is off by half a percent, and that falls as 1/N (experiments/conduction_limits).
+        More would only spend their time on the way to the steady state: the heat flux is off by
+        0.6% with ten in a layer, by less than 0.15% with fifty (experiments/conduction_limits).
         """
         return max(5_000, 50 * self.layers)
 
