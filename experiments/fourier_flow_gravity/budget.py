@@ -9,13 +9,13 @@ import numpy as np
 
 from jdsmc import Estimate, Result
 from jdsmc.conduction import WINDOW
-from jdsmc.gravity_effect import means, rule
+from jdsmc.gravity_effect import linear_response, means, rule
 from jdsmc.stats import jackknife
 
 from .data import Measurements
-from .systems import EXAMPLE, STUDY_GRAVITY
+from .systems import EXAMPLE, STUDY_GRAVITY, Combination
 
-WINDOWS = (0.6, 1.0, 1.6)
+WINDOWS = (0.6, 1.0, 2.0, 4.0)
 
 QUANTITIES = {"κ*(g = 0)": ("kappa_star", 0.0), "Δκ*(g = -0.016)": ("kappa_star_change", -0.016)}
 """Label: name of `gravity_effect`, and g."""
@@ -48,6 +48,11 @@ def windows(data: Measurements) -> list[Entry]:
             Entry(f"window {window:g} λ0", values, None if window == WINDOW else changes)
         )
     return entries
+
+
+def response_by_window(data: Measurements, combination: Combination) -> list[Estimate]:
+    """B of a sweep with every window."""
+    return [linear_response(data.sweep(combination), window)["B"] for window in WINDOWS]
 
 
 def variants(data: Measurements) -> list[Entry]:

@@ -32,7 +32,15 @@ def write(data: Measurements, folder: Path) -> Path:
         },
         "The coefficient B": [RESPONSE_NOTE, "", *table.response(data)],
         "Balance laws": [BALANCE_NOTE, "", *table.balances(data)],
-        "Error budget: the window of the slope": [WINDOW_NOTE, "", *table.windows(data)],
+        "Error budget: the window of the slope": [
+            WINDOW_NOTE,
+            "",
+            *table.windows(data),
+            "",
+            WINDOW_RESPONSE_NOTE,
+            "",
+            *table.responses_by_window(data),
+        ],
         "Error budget: time step, layers, particles": [BUDGET_NOTE, "", *table.variants(data)],
         "Maxwell molecules and eq. (6)": [MAXWELL_NOTE, "", *table.maxwell(data)],
         "Misprints in the paper": markdown.grid(["place", "what was taken"], MISPRINTS),
@@ -73,6 +81,8 @@ WINDOW_NOTE = (
     "everywhere else (the paper does not say how it took the slope). The same simulations, so that "
     "the errors of the changes are those of the differences."
 )
+
+WINDOW_RESPONSE_NOTE = "B in all combinations, from the same simulations:"
 
 BUDGET_NOTE = (
     f"{EXAMPLE.label}. Independent simulations; changes from the default in percent, that of Δκ* "

@@ -153,6 +153,19 @@ def windows(data: Measurements) -> list[str]:
     return grid(["window", *_with_changes(list(budget.QUANTITIES))], lines)
 
 
+def responses_by_window(data: Measurements) -> list[str]:
+    """B of every combination with other windows, and of the paper's table."""
+    lines = [
+        [
+            combination.label,
+            *(str(found) for found in budget.response_by_window(data, combination)),
+            str(effect.paper_response(combination)["B"]),
+        ]
+        for combination in data.size.gravity
+    ]
+    return grid(["B", *(f"window {w:g} λ0" for w in budget.WINDOWS), "the paper's table"], lines)
+
+
 def variants(data: Measurements) -> list[str]:
     """κ*, Δκ* and q with other numerics, in other simulations."""
     entries = budget.variants(data)
