@@ -84,6 +84,28 @@ def test_equal_walls_under_gravity_give_the_barometric_law():
     assert steady["density_error"].values.max() < 0.02
 
 
+def test_gravity_that_empties_the_hot_side():
+    """The barometric law in what is filled; where no particle ever was, n = 0 and T is unknown.
+
+    2000 exp(-16) particles are expected in the four highest layers together at one instant: 2e-4.
+    """
+    gravity, length, layers = 1.0, 10.0, 20
+    scene = FourierFlow(SPHERES, 1.0, gravity, length, layers=layers)
+    result = run(scene, duration=60.0, time_step=0.02, seed=5, **SMALL)
+    steady = result.to_xarray().to_dataset()
+    edges = np.linspace(0, length, layers + 1)
+    expected = -np.diff(np.exp(-2 * gravity * edges)) * layers
+    filled = expected > 0.2  # at least 20 particles
+    for name, law in (("density", expected[filled]), ("temperature", 1.0)):
+        scores = _z_scores(steady[name][filled], steady[f"{name}_error"][filled], law)
+        # 5 values from 8 realizations, each with a variance of 1.4 (Student's t)
+        assert np.mean(scores**2) < 4.0, name
+    density, temperature = steady["density"].values, steady["temperature"].values
+    assert np.all(density[-4:] == 0)
+    np.testing.assert_array_equal(np.isnan(temperature), density == 0)
+    assert np.isfinite(steady["heat_flux_cold_wall"]) and steady["heat_flux_hot_wall"] == 0
+
+
 def test_same_rule_as_the_paper_finds_the_point_of_equal_gradient(conducting):
     effect = at_equal_gradient(conducting)
     free = effect.sel(gravity=0.0)
