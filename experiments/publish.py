@@ -1,8 +1,15 @@
-"""Where tables and figures are kept beside the code that made them."""
+"""Where simulations are kept, and tables and figures beside the code that made them."""
 
 import shutil
 from collections.abc import Iterable
 from pathlib import Path
+
+
+def output_folder(experiment: str, size: str, out: Path | None) -> Path:
+    """The folder of simulations, made if it is missing: OUT or output/<experiment>/<size>."""
+    folder = out or Path("output") / experiment / size
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
 
 
 def results_folder(results: Path, size: str) -> Path:

@@ -1,20 +1,37 @@
 """Direct simulation Monte Carlo of granular and molecular gases."""
 
-from . import scenarios, theory, transport
-from .faults import FaultError, NotSteadyError
-from .gas import ElasticHardSpheres, InelasticHardSpheres, MaxwellMolecules
-from .result import Estimate, Result, load
-from .run import run
+from . import random, scenarios, theory, transport
+from .errors import FaultError, NotSteadyError
+from .estimate import Estimate, combine
+from .fields import choice, count, number
+from .gases import (
+    AbstractGas,
+    ElasticHardSpheres,
+    InelasticHardDisks,
+    InelasticHardSpheres,
+    MaxwellMolecules,
+)
+from .measure.observable import Observable
+from .results import Result, load
+from .running.run import run
 
 __all__ = [
+    "AbstractGas",
     "ElasticHardSpheres",
     "Estimate",
     "FaultError",
+    "InelasticHardDisks",
     "InelasticHardSpheres",
     "MaxwellMolecules",
     "NotSteadyError",
+    "Observable",
     "Result",
+    "choice",
+    "combine",
+    "count",
     "load",
+    "number",
+    "random",
     "run",
     "scenarios",
     "theory",

@@ -23,10 +23,11 @@ def _numbers(value) -> np.ndarray | None:
     return array.astype(float) if array.dtype.kind in "iuf" else None
 
 
-def in_range(name, value, low, high, *, low_included=True, high_included=True):
+def in_range(name, value, low, high, *, low_included=True, high_included=True, axes=0):
     """Raise unless `value` is a number, or an array of them, finite and within the interval.
 
-    Traced values pass: they cannot be inspected, and were checked when they were concrete.
+    `axes` are those of the number itself; a sweep may add one. Traced values pass: they cannot be
+    inspected, and were checked when they were concrete.
     """
     if isinstance(value, jax.core.Tracer):
         return
@@ -40,10 +41,11 @@ def in_range(name, value, low, high, *, low_included=True, high_included=True):
     if not np.all(good):
         bad = np.atleast_1d(array)[~np.atleast_1d(good)][0]
         raise ValueError(f"{name} = {bad:g} is outside the allowed range {interval}.")
-    if array.ndim > 1:
+    if not axes <= array.ndim <= axes + 1:
+        kind = "a scalar" if axes == 0 else f"an array of {axes} axes"
         raise ValueError(
-            f"{name} has shape {array.shape}; a physical number is a scalar or, for a sweep, "
-            "a one-dimensional array."
+            f"{name} has shape {array.shape}; this physical number is {kind} or, for a sweep, has "
+            "one axis more (a one-dimensional array of scalars)."
         )
     if array.size == 0:
         raise ValueError(f"{name} is an empty array; give at least one value.")
@@ -56,12 +58,20 @@ def scalar(name, value, low, high, *, high_included=True):
     in_range(name, value, low, high, low_included=False, high_included=high_included)
 
 
-def at_least(name, value, low):
-    """Raise unless `value` is an integer (bool excluded) of at least `low`."""
-    if isinstance(value, bool) or not isinstance(value, int | np.integer):
+def whole(name, value, low) -> int:
+    """The value as an integer of at least `low`: 1e4 and NumPy's integers too, but not True."""
+    if isinstance(value, bool | np.bool_) or not isinstance(value, int | float | np.number):
+        raise TypeError(f"{name} must be an integer, got {value!r}.")
+    if not np.isfinite(value) or value != int(value):
         raise TypeError(f"{name} must be an integer, got {value!r}.")
     if value < low:
         raise ValueError(f"{name} = {value} is outside the allowed range [{low}, inf).")
+    return int(value)
+
+
+def at_least(name, value, low) -> None:
+    """Raise unless `value` is an integer (bool excluded) of at least `low`."""
+    whole(name, value, low)
 
 
 def one_of(name, value, choices):

@@ -6,11 +6,31 @@ and Shaw, "Parallel random numbers: as easy as 1, 2, 3" (SC11); 13 rounds is the
 passes BigCrush there, 20 is the recommended safety margin (used for keys).
 """
 
+from enum import IntEnum
+
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Int
 
 from .types import Key, Word
+
+
+class Stream(IntEnum):
+    """Who uses which random numbers of the key of one step.
+
+    A scene takes its own from `OWN` on: `bits(key, shape, Stream.OWN + k)` for any k >= 0.
+    """
+
+    ROWS = 0  # which rows of a homogeneous gas are candidates
+    SHIFT = 1  # how their lanes are shifted
+    FIRST_WAVE = 2  # acceptance and direction of the first wave of pairs
+    SECOND_WAVE = 3
+    SEATS = 4  # who sits where in a cell
+    FIRST_SEATS = 5  # acceptance and direction of the pairs in the seats
+    SECOND_SEATS = 6
+    FLIGHT = 16  # emission at walls: two streams for each hit of a step, up to 215
+    OWN = 1024  # free for the scenes of users, and for what a scene draws beside collisions
+
 
 _ROTATIONS = (13, 15, 26, 6, 17, 29, 16, 24)
 _PARITY = 0x1BD11BDA
@@ -91,3 +111,12 @@ def permutation(key: Key, n: int, stream=0) -> Int[Array, " n"]:
     the at most 2^11 rows used here.
     """
     return jnp.argsort(bits(key, (n,), stream)[0])
+
+
+def normals(key: Key, like: tuple, stream: int) -> tuple:
+    """Independent standard normal numbers, one array for each of `like`, of its shape and dtype."""
+    pairs = [
+        normal_pair(bits(key, like[0].shape, stream + k), like[0].dtype)
+        for k in range((len(like) + 1) // 2)
+    ]
+    return tuple(number for pair in pairs for number in pair)[: len(like)]

@@ -1,19 +1,21 @@
 """Error bars from independent realizations, and tests for drift."""
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from scipy.stats import t as student
 
 
-def jackknife(means: dict[str, np.ndarray], function: Callable, axis: int):
+def jackknife(means: dict[Any, np.ndarray], function: Callable, axis: int):
     """Value and standard error of a function of averages over realizations.
 
     Arguments:
         means: per-realization averages; realizations along `axis` of every array.
         function: maps a dict of averages (without that axis) to a dict of observables.
-    Returns: two dicts, the observables of the overall averages and one standard error each.
-    The leave-one-out estimate of the error is right for any smooth function (Efron 1982).
+    Returns: three dicts: the observables of the overall averages, one standard error each, and
+    their values with one realization left out, stacked along a first axis. The leave-one-out
+    estimate of the error is right for any smooth function (Efron 1982).
     """
     count = next(iter(means.values())).shape[axis]
     total = {name: np.sum(value, axis=axis) for name, value in means.items()}
@@ -23,11 +25,11 @@ def jackknife(means: dict[str, np.ndarray], function: Callable, axis: int):
             function({n: (total[n] - np.take(means[n], r, axis=axis)) / (count - 1) for n in means})
             for r in range(count)
         ]
+        out = {name: np.stack([np.asarray(one[name]) for one in left_out]) for name in value}
         error = {
-            name: np.sqrt((count - 1) * np.var([one[name] for one in left_out], axis=0))
-            for name in value
+            name: np.sqrt((count - 1) * np.var(values, axis=0)) for name, values in out.items()
         }
-    return value, error
+    return value, error, out
 
 
 def drift_significance(early: np.ndarray, late: np.ndarray, axis: int = -1) -> np.ndarray:
@@ -44,7 +46,14 @@ def drift_significance(early: np.ndarray, late: np.ndarray, axis: int = -1) -> n
     return np.asarray(2.0 * student.sf(np.where(spread > 0, score, 0.0), count - 1))
 
 
-def linear_trend(times: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Least-squares slope of each series over its own times, both (..., records)."""
-    centred = times - np.mean(times, axis=-1, keepdims=True)
-    return np.sum(centred * values, axis=-1) / np.sum(centred**2, axis=-1)
+def variogram_ratio(blocks: np.ndarray) -> float:
+    """Variogram of block means over a lag of four blocks, relative to that over one.
+
+    Arguments: means of consecutive blocks, (realizations, blocks); what all realizations do alike
+    is subtracted. The ratio is 1 for independent blocks, and 11/2 for means of a random walk, which
+    shows from its increments whether or not realizations started alike. Constants give 0.
+    """
+    own = blocks - np.mean(blocks, axis=0)
+    near, far = (np.mean((own[:, lag:] - own[:, :-lag]) ** 2) for lag in (1, 4))
+    scale = np.mean(blocks**2)
+    return float(far / near) if near > 1e-24 * scale else 0.0

@@ -103,7 +103,9 @@ def test_gravity_that_empties_the_hot_side():
     density, temperature = steady["density"].values, steady["temperature"].values
     assert np.all(density[-4:] == 0)
     np.testing.assert_array_equal(np.isnan(temperature), density == 0)
-    assert np.isfinite(steady["heat_flux_cold_wall"]) and steady["heat_flux_hot_wall"] == 0
+    # no particle reaches the hot wall, and in equilibrium the cold one gives no heat
+    assert steady["heat_flux_hot_wall"] == 0
+    assert abs(steady["heat_flux_cold_wall"]) < 5 * steady["heat_flux_cold_wall_error"]
 
 
 def test_same_rule_as_the_paper_finds_the_point_of_equal_gradient(conducting):

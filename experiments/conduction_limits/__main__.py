@@ -18,7 +18,7 @@ from jdsmc.result import format_estimate
 from jdsmc.scenarios import FourierFlow
 from jdsmc.theory import sonine_elastic
 
-from ..publish import results_folder
+from ..publish import output_folder, results_folder
 from ..store import obtain
 from .analysis import coefficients, discretization, small_gradient_limit
 
@@ -62,8 +62,7 @@ def main(full: bool = False, out: Path | None = None, fresh: bool = False):
         fresh: run every simulation again.
     """
     size = "full" if full else "small"
-    store = out or Path("output/conduction_limits") / size
-    store.mkdir(parents=True, exist_ok=True)
+    store = output_folder("conduction_limits", size, out)
     lines = [
         "# Heat conduction at small gradients\n",
         f"L = {LENGTH:g} λ0, Maxwell walls, coefficients from the middle half of the slab; one "

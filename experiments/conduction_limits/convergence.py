@@ -19,7 +19,7 @@ from jdsmc import InelasticHardSpheres, Result, run
 from jdsmc.result import format_estimate
 from jdsmc.scenarios import FourierFlow
 
-from ..publish import results_folder
+from ..publish import output_folder, results_folder
 from ..store import obtain
 from .analysis import discretization
 from .convergence_figure import draw, relative
@@ -28,6 +28,8 @@ RESULTS = Path(__file__).parent / "results"
 COLD, LENGTH = 0.2, 10.0
 TOTAL, SMALL_TIME, FULL_TIME = 80_000, 400.0, 1_600.0
 """Particles of all realizations together, and the time simulated."""
+STEPS = 8
+"""Time steps between two samples."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +81,7 @@ class Case:
             duration=self.duration,
             time_step=setting.time_step,
             splitting=setting.splitting,
-            steps_per_record=8,
+            steps_per_record=STEPS,
             seed=self.seed,
             progress=False,
         )
@@ -102,7 +104,7 @@ def measure(setting: Setting, result: Result) -> Measured:
     walls = 0.5 * (data["heat_flux_cold_wall"] + data["heat_flux_hot_wall"]).values
     sampled = data["mean_heat_flux"].values
     step = float(np.mean(np.diff(result.series["time"].values)[1:])) / (
-        8 * FourierFlow.samples_per_record
+        STEPS * FourierFlow.samples_per_record
     )
     return Measured(setting, _mean(sampled), _mean(walls), step, _law(result, step))
 
@@ -129,8 +131,7 @@ def main(full: bool = False, out: Path | None = None, fresh: bool = False):
     """
     mpl.use("agg")
     size = "full" if full else "small"
-    store = out or Path("output/conduction_limits") / size
-    store.mkdir(parents=True, exist_ok=True)
+    store = output_folder("conduction_limits", size, out)
     found = []
     for seed, setting in enumerate(SETTINGS):
         case = Case(seed, setting, FULL_TIME if full else SMALL_TIME)

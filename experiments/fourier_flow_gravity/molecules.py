@@ -4,8 +4,6 @@
 adds what its walls do, and orders beyond the second.
 """
 
-from typing import NamedTuple
-
 from jdsmc import Estimate, Result, conduction
 from jdsmc.gravity_effect import at_equal_gradient, linear_response, means
 from jdsmc.stats import jackknife
@@ -27,25 +25,19 @@ def prediction(gradient, strength):
     return 1.0 + FIRST_ORDER * gradient * strength + second_order(gradient) * strength**2
 
 
-class Response(NamedTuple):
-    """B, C and κ*(g = 0) beside eq. (6)."""
-
-    found: dict[str, Estimate]
-
-    @property
-    def off(self) -> dict[str, float]:
-        """Distances from eq. (6) in errors."""
-        gradient = self.found["reduced_gradient"].value
-        wanted = {"kappa_star": 1.0, "B": FIRST_ORDER, "C": second_order(gradient)}
-        return {n: (self.found[n].value - w) / self.found[n].error for n, w in wanted.items()}
+def distances(found: dict[str, Estimate]) -> dict[str, float]:
+    """κ*(g = 0), B and C of `response`: their distances from eq. (6) in errors."""
+    gradient = found["reduced_gradient"].value
+    wanted = {"kappa_star": 1.0, "B": FIRST_ORDER, "C": second_order(gradient)}
+    return {n: (found[n].value - w) / found[n].error for n, w in wanted.items()}
 
 
-def response(result: Result, window: float) -> Response:
+def response(result: Result, window: float) -> dict[str, Estimate]:
     """B, C and κ* at the point halfway in mean free paths at g = 0, and where ε is the same.
 
     `window`: of the slope, as a share of the slab.
     """
-    return Response(linear_response(result, window * _length(result)))
+    return linear_response(result, window * _length(result))
 
 
 def points(result: Result):

@@ -198,7 +198,8 @@ def maxwell(data: Measurements) -> list[str]:
     lines = []
     for length, result in data.molecules.items():
         for window in molecules.WINDOWS:
-            found, off = (r := molecules.response(result, window)).found, r.off
+            found = molecules.response(result, window)
+            off = molecules.distances(found)
             gradient = found["reduced_gradient"].value
             lines.append(
                 [

@@ -6,7 +6,7 @@ from pathlib import Path
 import matplotlib as mpl
 import tyro
 
-from ..publish import keep
+from ..publish import keep, output_folder
 from . import report
 from .data import measure
 from .figures import draw_all
@@ -26,7 +26,7 @@ def main(full: bool = False, out: Path | None = None, fresh: bool = False):
     """
     start = time.perf_counter()
     size = FULL if full else SMALL
-    folder = out or Path("output/heat_flux_force") / size.name
+    folder = output_folder("heat_flux_force", size.name, out)
     table, *figures = reproduce(size, folder, fresh)
     keep([table, *figures], RESULTS, size.name)
     print(f"{table} and {len(figures)} figures in {time.perf_counter() - start:.0f} s")
@@ -35,7 +35,6 @@ def main(full: bool = False, out: Path | None = None, fresh: bool = False):
 def reproduce(size: Size, folder: Path, fresh: bool) -> list[Path]:
     """Simulate, draw and compare. Returns the files: table.md, then the figures."""
     mpl.use("Agg")
-    folder.mkdir(parents=True, exist_ok=True)
     data = measure(size, folder, fresh)
     figures = draw_all(data, folder)
     return [report.write(data, folder), *figures]

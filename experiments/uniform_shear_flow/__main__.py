@@ -7,7 +7,7 @@ from pathlib import Path
 import matplotlib as mpl
 import tyro
 
-from ..publish import keep
+from ..publish import keep, output_folder
 from ..store import obtain, program
 from . import report, report_slab, slab, symmetry
 from .data import Measurements
@@ -31,8 +31,7 @@ def main(full: bool = False, out: Path | None = None, fresh: bool = False):
     mpl.use("Agg")
     start = time.perf_counter()
     size = FULL if full else SMALL
-    folder = out or Path("output/uniform_shear_flow") / size.name
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = output_folder("uniform_shear_flow", size.name, out)
     data = measure(size, folder, fresh)
     slabs = slab.measure(slab.SIZES[size.name], folder, fresh)
     study = [obtain_steady(case, folder, fresh) for case in study_cases(size)]

@@ -1,9 +1,34 @@
-"""Scenes: one physical situation a file."""
+"""Scenes: one physical situation a file, and what a scene of your own derives from."""
 
+from .approach import Approach
+from .base import AbstractScene, Record
 from .fourier_flow import FourierFlow
 from .heat_flux_force import HeatFluxForce
+from .homogeneous import AbstractHomogeneous, homogeneous_observables
 from .homogeneous_cooling import HomogeneousCooling
+from .navier_stokes import NavierStokes
+from .options import Options
 from .sheared_slab import ShearedSlab
+from .slab import AbstractSlab, SlabState
 from .uniform_shear import UniformShear
 
-__all__ = ["FourierFlow", "HeatFluxForce", "HomogeneousCooling", "ShearedSlab", "UniformShear"]
+SCENES = (UniformShear, HomogeneousCooling, HeatFluxForce, FourierFlow, ShearedSlab, NavierStokes)
+"""Those of the library, in the order of the command line."""
+
+__all__ = [
+    "SCENES",
+    "AbstractHomogeneous",
+    "AbstractScene",
+    "AbstractSlab",
+    "Approach",
+    "FourierFlow",
+    "HeatFluxForce",
+    "HomogeneousCooling",
+    "NavierStokes",
+    "Options",
+    "Record",
+    "ShearedSlab",
+    "SlabState",
+    "UniformShear",
+    "homogeneous_observables",
+]

@@ -5,6 +5,7 @@ a gravity field" (2000). Units as everywhere, T0 being the temperature T_+ of th
 gravity is an acceleration -g ẑ, so that g > 0 presses the gas to the cold wall.
 """
 
+from dataclasses import replace
 from typing import Any, ClassVar, Literal
 
 import equinox as eqx
@@ -13,22 +14,30 @@ import jax.numpy as jnp
 import numpy as np
 from jax import lax
 
-from .. import check, conduction, random
-from ..collide import Collisions
-from ..collide_layers import collide_in_layers
-from ..flight import Exchange, fly
-from ..gas import INITIAL_TEMPERATURE, AbstractGas
-from ..layers import layer_of, populations, totals
-from ..options import Options
-from ..slab_state import SlabState, maxwellian_at, next_crowding, uniform
-from ..types import Key, Physical, Positions, Profile, Scalar, Velocities
-from ..walls import Walls
+from .. import random
+from ..collisions.bound import next_bound
+from ..collisions.meet import Collisions
+from ..fields import choice, count, number
+from ..gases import AbstractGas, ElasticHardSpheres
+from ..gases.base import conserves_energy, speed_exponent
+from ..measure import conduction
+from ..measure.observable import Observable
+from ..motion.cells import populations, totals
+from ..motion.flight import Exchange, fly
+from ..motion.walls import Walls
+from ..types import Key, Profile, Scalar
+from ..units import INITIAL_TEMPERATURE
+from .approach import Approach, of_conduction
+from .base import Record
+from .options import Options
+from .slab import AbstractSlab, SlabState, maxwellian_at, uniform
 
 FAST = 4.0
 """Speed (v0) that must not carry a particle across the slab in one step."""
 
-FIRST_CROWDING = 20.0
-"""Probability per time assumed at the start: a density of 8 and a relative speed of 3.5."""
+FIRST_DENSITY, FIRST_SPEED = 5.0, 4.0
+"""What the first step is made short for: probabilities per time of 5 times the rate at 4 v0, a
+density of 3 and a fast pair."""
 
 
 class Conduction(eqx.Module):
@@ -44,23 +53,23 @@ class Conduction(eqx.Module):
     height: Scalar
 
 
-class FourierRecord(eqx.Module):
-    """One record: sums averaged over its samples, collisions, wall exchange, and its length."""
+class FourierRecord(Record):
+    """One record: sums averaged over its samples, collisions, its length, and wall exchange."""
 
-    moments: Conduction
-    tally: Collisions
     exchange: Exchange
-    elapsed: Scalar
 
 
-class WalledState(eqx.Module):
-    """A gas, and its walls: they never change, but their tables take time to make."""
+class WalledState(SlabState):
+    """A gas and its walls: they never change, but their tables take time to make.
 
-    gas: SlabState
+    `exchange`: what the walls did since it was last reported.
+    """
+
     walls: Walls
+    exchange: Exchange
 
 
-class FourierFlow(eqx.Module):
+class FourierFlow(AbstractSlab):
     """A gas between walls at T_- (z = 0) and T_+ = T0 (z = L), started from Fourier's law (eq. 31).
 
     Arguments:
@@ -75,45 +84,41 @@ class FourierFlow(eqx.Module):
     Numbers or, for a sweep, 1-D arrays. Raises ValueError for values outside these.
     """
 
-    steady_observables: ClassVar[tuple[str, ...]] = (
-        *("mean_heat_flux", "heat_flux_cold_wall", "heat_flux_hot_wall"),
-        *("temperature", "density", "pressure", "pressure_zz", "heat_flux"),
-        *("kappa_star", "reduced_gradient", "reduced_gravity", "mean_free_paths"),
-    )
-    densities: ClassVar[dict[str, float]] = {}
+    command: ClassVar[str] = "fourier"
+    reports: ClassVar[tuple[Observable, ...]] = conduction.OBSERVABLES
     monitored: ClassVar[tuple[str, ...]] = ("energy", "height", "mean_heat_flux")
-    default_observable: ClassVar[str] = "mean_heat_flux"
-    in_space: ClassVar[bool] = True
     samples_per_record: ClassVar[int] = 8
     axis: ClassVar[str] = "z"
-    profiles: ClassVar[tuple[str, ...]] = steady_observables[3:]
-    descriptions: ClassVar[dict[str, tuple[str, str]]] = {
-        "pressure_zz": ("pressure P_zz", "n̄ m v0²"),
-    }
-    additive: ClassVar[tuple[str, ...]] = (
-        *("density", "pressure", "pressure_zz", "heat_flux"),
-        *("mean_heat_flux", "heat_flux_cold_wall", "heat_flux_hot_wall"),
-    )
 
     gas: AbstractGas
-    cold_temperature: Physical = eqx.field(converter=check.physical)
-    gravity: Physical = eqx.field(default=0.0, converter=check.physical)
-    length: Physical = eqx.field(default=10.0, converter=check.physical)
-    wall: Literal["maxwell", "bgk"] = eqx.field(default="maxwell", static=True)
-    layers: int = eqx.field(default=100, static=True)
+    cold_temperature: Any = number(
+        "temperature T_- of the cold wall over that of the hot one",
+        low=0.0,
+        high=1.0,
+        low_included=False,
+    )
+    gravity: Any = number(
+        "gravity g, positive towards the cold wall", "v0²/λ0", low=-1.0, high=1.0, default=0.0
+    )
+    length: Any = number(
+        "distance L of the walls", "λ0", low=0.0, high=1000.0, low_included=False, default=10.0
+    )
+    wall: Literal["maxwell", "bgk"] = choice(
+        "what the walls emit: a Maxwellian (type I), or the BGK gas that conducts heat (type II)",
+        ("maxwell", "bgk"),
+        default="maxwell",
+    )
+    layers: int = count("layers across the slab", default=100)
 
     def __check_init__(self):
-        if not isinstance(self.gas, AbstractGas):
-            raise TypeError(f"gas must be a jdsmc gas, got {self.gas!r}.")
-        if self.gas.frictional or self.gas.is_dissipative():
+        if isinstance(self.gas, ElasticHardSpheres) or not conserves_energy(self.gas):
             raise ValueError("FourierFlow needs an elastic gas without drag: restitution = 1.")
-        check.in_range("cold_temperature", self.cold_temperature, 0.0, 1.0, low_included=False)
-        check.in_range("gravity", self.gravity, -1.0, 1.0)
-        check.in_range("length", self.length, 0.0, 1000.0, low_included=False)
-        check.one_of("wall", self.wall, ("maxwell", "bgk"))
-        check.at_least("layers", self.layers, 1)
+        if speed_exponent(self.gas) is None:
+            raise ValueError(
+                "FourierFlow needs a gas whose pair rate is a power of the relative speed: κ*, ε "
+                f"and g* stand on κ ∝ T^ω; {type(self.gas).__name__} has no such law."
+            )
 
-    @property
     def default_particles(self) -> int:
         """Fifty in a layer, at least 5000 as in the paper.
 
@@ -122,26 +127,19 @@ class FourierFlow(eqx.Module):
         """
         return max(5_000, 50 * self.layers)
 
-    def has_steady_state(self) -> bool:
-        """Always: the walls see to it."""
-        return True
-
-    def check_options(self, options: Options) -> None:
+    def fit_options(self, options: Options) -> Options:
         """Raise ValueError for a step in which a particle of 4 v0 may cross the slab."""
-        longest = float(np.min(self.length)) / FAST
+        longest = float(self.length) / FAST
         if options.time_step > longest:
             raise ValueError(
                 f"time_step = {options.time_step:g} lets a particle cross the slab of length "
-                f"{np.min(self.length):g} in one step; the allowed range is (0, {longest:.3g}]."
+                f"{self.length:g} in one step; the allowed range is (0, {longest:.3g}]."
             )
+        return options
 
-    def shortest_warm_up(self) -> float:
-        """Collisions per particle before the first test for a steady state.
-
-        Heat and particles diffuse across the slab in L²/(π² D) = 0.15 L² τ0 or so; a collision per
-        particle takes 1.8 τ0 on average. This is six such times.
-        """
-        return 0.5 * float(np.max(self.length)) ** 2
+    def approach(self) -> Approach:
+        """Diffusion of heat across the slab."""
+        return of_conduction(self.cold_temperature, self.gravity, self.length)
 
     def initial(self, key: Key, options: Options) -> WalledState:
         """Local equilibrium with n ∝ 1/T and T^{3/2} linear between the walls: eq. (31)."""
@@ -152,8 +150,10 @@ class FourierFlow(eqx.Module):
         place = share * (3.0 + 3.0 * rise + rise**2) / (3.0 + 3.0 * excess + excess**2)
         temperature = self.cold_temperature * (1.0 + rise) ** 2
         velocity = maxwellian_at(random.fold_in(key, 1), INITIAL_TEMPERATURE * temperature)
-        crowding = jnp.asarray(FIRST_CROWDING, options.dtype)
-        return WalledState(SlabState(place * self.length, velocity, crowding), self.walls())
+        crowding = FIRST_DENSITY * self.gas.rate(jnp.asarray(FIRST_SPEED, options.dtype))
+        return WalledState(
+            *(place * self.length, velocity, crowding), self.walls(), Exchange.none(options.dtype)
+        )
 
     def walls(self) -> Walls:
         """The two walls."""
@@ -166,76 +166,68 @@ class FourierFlow(eqx.Module):
     ) -> tuple[WalledState, FourierRecord]:
         """One record: samples, each after `options.steps` time steps."""
 
-        def one_sample(gas, number):
-            return self.sample(random.fold_in(key, number), gas, state.walls, options)
+        def one_sample(state, number):
+            return self.sample(random.fold_in(key, number), state, options)
 
         samples = jnp.arange(self.samples_per_record, dtype=jnp.uint32)
-        gas, (moments, tally, exchange, elapsed) = lax.scan(one_sample, state.gas, samples)
+        start = replace(state, exchange=Exchange.none(options.dtype))
+        state, (moments, tally, elapsed) = lax.scan(one_sample, start, samples)
         moments = jax.tree.map(lambda x: jnp.mean(x, axis=0), moments)
-        exchange = jax.tree.map(jnp.sum, exchange)
-        record = FourierRecord(moments, Collisions.over(tally), exchange, jnp.sum(elapsed))
-        return WalledState(gas, state.walls), record
+        tally, elapsed = Collisions.over(tally), jnp.sum(elapsed)
+        return state, FourierRecord(moments, tally, elapsed, state.exchange)
 
-    def sample(self, key: Key, state: SlabState, walls: Walls, options: Options):
+    def sample(self, key: Key, state: WalledState, options: Options):
         """Time steps, and what the layers hold after them.
 
         Strang: flights end half a step before and after the collisions, so a sample taken between
         two flights sees stress and heat flux halfway between two collision stages.
         """
-        duration = jnp.minimum(options.time_step, state.longest_step())
-        halves = 0.5 if options.splitting == "strang" else 1.0
-        flights = jnp.ones(options.steps, options.dtype).at[0].set(halves)
+        duration = self.wanted_step(state, options)
+        before, after = options.halves
+        flights = jnp.ones(options.steps, options.dtype).at[0].set(before)
 
-        def step(carry, inputs):
-            state, exchange = carry
+        def step(state, inputs):
             number, share = inputs
             key_here = random.fold_in(key, number)
-            state, now = self.move(key_here, state, walls, share * duration)
-            layer = layer_of(state.position, self.length, self.layers)
-            velocity, tally, met = collide_in_layers(
-                key_here, self.gas, layer, self.layers, state.velocity, duration
+            state = self.move(key_here, state, share * duration)
+            velocity, tally, met = self.collide(
+                key_here, self.layer(state.position), state.velocity, duration, options
             )
-            crowding = next_crowding(state.crowding, met)
-            state = SlabState(state.position, velocity, crowding)
-            return (state, exchange.then(now)), tally
+            crowding = next_bound(state.crowding, met)
+            return replace(state, velocity=velocity, crowding=crowding), tally
 
-        zero = jnp.zeros((), options.dtype)
-        start = (state, Exchange(zero, zero, zero, zero))
         counts = jnp.arange(options.steps, dtype=jnp.uint32)
-        (state, exchange), tally = lax.scan(step, start, (counts, flights))
-        if options.splitting == "strang":
-            last = random.fold_in(key, options.steps)
-            state, now = self.move(last, state, walls, 0.5 * duration)
-            exchange = exchange.then(now)
-        moments = self.measure(state.position, state.velocity)
-        return state, (moments, Collisions.over(tally), exchange, options.steps * duration)
+        state, tally = lax.scan(step, state, (counts, flights))
+        if after:
+            state = self.move(random.fold_in(key, options.steps), state, after * duration)
+        return state, (self.measure(state), Collisions.over(tally), options.steps * duration)
 
-    def move(
-        self, key: Key, state: SlabState, walls: Walls, duration: Scalar
-    ) -> tuple[SlabState, Exchange]:
+    def wanted_step(self, moments: WalledState, options: Options) -> Scalar:
+        """The asked fraction of τ0, shorter where a pair would be too likely."""
+        return jnp.minimum(options.time_step, moments.longest_step())
+
+    def move(self, key: Key, state: WalledState, duration: Scalar) -> WalledState:
         """Free flight between the walls."""
-        position, velocity, exchange = fly(
-            *(key, walls, state.position, state.velocity),
+        position, velocity, now = fly(
+            *(key, state.walls, state.position, state.velocity),
             *(self.gravity, self.length, duration),
         )
-        return SlabState(position, velocity, state.crowding), exchange
+        return replace(
+            state, position=position, velocity=velocity, exchange=state.exchange.then(now)
+        )
 
-    def measure(self, position: Positions, velocity: Velocities) -> Conduction:
+    def measure(self, state: SlabState) -> Conduction:
         """Sums over each layer."""
-        layer = layer_of(position, self.length, self.layers)
-        vx, vy, vz = velocity
+        layer = self.layer(state.position)
+        vx, vy, vz = state.velocity
         square = vx * vx + vy * vy + vz * vz
         return Conduction(
             populations(layer, self.layers).astype(vz.dtype),
             totals(layer, square, self.layers),
             totals(layer, vz * vz, self.layers),
             totals(layer, 0.5 * square * vz, self.layers),
-            jnp.sum(position),
+            jnp.sum(state.position),
         )
-
-    def finish_chunk(self, state: WalledState) -> tuple[WalledState, None]:
-        """Nothing to do between chunks."""
-        return state, None
 
     def faults(self, record: FourierRecord) -> str:
         """Particles that bounce on without end."""
@@ -249,11 +241,10 @@ class FourierFlow(eqx.Module):
 
     def averages(self, record: FourierRecord) -> dict[str, np.ndarray]:
         """Densities, pressures and fluxes of each record: all add up."""
-        m: Any = record.moments  # on the host: arrays (points, realizations, records, layers)
+        m: Any = record.moments  # on the host: arrays (realizations, records, layers)
         n_particles = np.sum(m.number, axis=-1)
         per_volume = self.layers / n_particles[..., None]
-        lengths = np.asarray(self.length, dtype=float)[:, None, None]
-        per_area = lengths / n_particles / record.elapsed
+        per_area = self.length / n_particles / record.elapsed
         return {
             "density": m.number * per_volume,
             "pressure": m.square * per_volume / 3.0,
@@ -266,15 +257,8 @@ class FourierFlow(eqx.Module):
             "height": m.height / n_particles,
         }
 
-    def evolution(self, means: dict) -> dict:
-        """Nothing but the observables."""
-        return {}
-
     def observables(self, means: dict) -> dict:
         """Profiles, and their reduced form."""
         profiles = conduction.profiles(means)
-        exponent = self.gas.viscosity_exponent
-        return {
-            **profiles,
-            **conduction.reduced(profiles, self.gravity, self.length, exponent),
-        }
+        exponent = 1.0 - 0.5 * self.gas.speed_exponent()
+        return profiles | conduction.reduced(profiles, self.gravity, self.length, exponent)

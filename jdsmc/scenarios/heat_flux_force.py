@@ -10,30 +10,48 @@ unit of time. So the gas cools freely within a record (eight steps) and is scale
 start: no thermostat stands between collisions, and none can bias their rate.
 """
 
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 
-from .. import check
-from ..collide import collide
-from ..gas import INITIAL_TEMPERATURE, AbstractGas
-from ..heat import (
-    HeatRecord,
+from ..fields import choice, number
+from ..gases import AbstractGas
+from ..measure.heat import (
+    RESPONSES,
     MarginalVelocity,
-    heat_averages,
     heat_moments,
-    heat_observables,
     marginal_velocity,
+    odd_averages,
+    responses,
 )
-from ..measure import centred
-from ..options import Options
-from ..pace import make_steps
-from ..pairs import remix
-from ..state import HomogeneousState, held_at
-from ..types import Key, Physical, Scalar, Velocity
-from .homogeneous_cooling import check_without_drag, slowed_rates
+from ..measure.moments import BIN_WIDTH
+from ..measure.observable import Observable
+from ..measure.observables import REDUCED
+from ..motion.drive import centred, held_at, temperature_of
+from ..types import Key, Scalar, Velocity
+from ..units import INITIAL_TEMPERATURE
+from .approach import Approach, of_heat_flux_force
+from .homogeneous import (
+    DISTRIBUTIONS,
+    HomogeneousRecord,
+    HomogeneousState,
+    homogeneous_averages,
+)
+from .options import Options
+from .pace import make_steps
+from .scaled import check_without_drag, scaling_exponent, slowed_rates
+
+
+class HeatRecord(HomogeneousRecord):
+    """A record of the gas held at T0: `elapsed` is ∫ dt (T/T0)^{γ/2}, `slowing` refers to it.
+
+    `runaway` is the largest -½ ε V_x dt of a particle in a step, `step` the mean dt.
+    """
+
+    runaway: Scalar
+    step: Scalar
 
 
 class HeatFluxForce(eqx.Module):
@@ -50,31 +68,46 @@ class HeatFluxForce(eqx.Module):
     particles away (it does in finite time for V_x < 0 if collisions are too rare).
     """
 
-    steady_observables: ClassVar[tuple[str, ...]] = (
-        *("conductivity_ratio", "sonine", "sonine_marginal", "a2", "a3", "relative_speed_cubed"),
-        "collision_rate_ratio",
-    )
-    densities: ClassVar[dict[str, float]] = {"marginal_x": 1.0}
+    command: ClassVar[str] = "heat-flux"
+    reports: ClassVar[tuple[Observable, ...]] = (*RESPONSES, *REDUCED)
+    sampled: ClassVar[tuple[Observable, ...]] = DISTRIBUTIONS[:1]
     monitored: ClassVar[tuple[str, ...]] = ("fourth", "flux3", "flux5")
-    default_observable: ClassVar[str] = "conductivity_ratio"
-    default_particles: ClassVar[int] = 20_000
 
     gas: AbstractGas
-    field: Physical = eqx.field(converter=check.physical)
-    scheme: Literal["exact", "paper"] = eqx.field(default="exact", static=True)
+    field: Any = number("strength λ0 ε of the force", low=0.0, high=2.0)
+    scheme: Literal["exact", "paper"] = choice(
+        "the force of a step: its exact flow around the collisions, or the paper's explicit step",
+        ("exact", "paper"),
+        default="exact",
+    )
+    exponent: float | None = eqx.field(init=False, static=True)
+
+    def __post_init__(self):
+        self.exponent = scaling_exponent(self.gas)
 
     def __check_init__(self):
         check_without_drag(self.gas, "HeatFluxForce")
-        check.in_range("field", self.field, 0.0, 2.0)
-        check.one_of("scheme", self.scheme, ("exact", "paper"))
+        if self.exponent != 1.0:
+            raise TypeError(
+                "HeatFluxForce needs a gas that collides at a rate proportional to the relative "
+                "speed and has no speed of its own, as hard spheres: collisions and force then "
+                f"scale alike, and the gas can be held at T0; {type(self.gas).__name__} does not."
+            )
 
     def has_steady_state(self) -> bool:
-        """The reduced distribution becomes steady."""
-        return True
+        """True if there is a heat flux to be measured."""
+        return self.field > 0
 
-    def initial(self, key: Key, options: Options) -> HomogeneousState:
-        """Maxwellian velocities with mean exactly zero and temperature exactly T0."""
-        return HomogeneousState.maxwellian(key, options, INITIAL_TEMPERATURE)
+    def no_steady_state(self) -> str:
+        """Without a field all responses are 0/0."""
+        return (
+            "field = 0 drives no heat flux to be measured; give field > 0, or duration or "
+            "collisions"
+        )
+
+    def approach(self) -> Approach:
+        """A few collisions per particle in a weak field."""
+        return of_heat_flux_force(self.field)
 
     def flow(self, velocity: Velocity, duration: Scalar) -> tuple[Velocity, Scalar]:
         """V/(1 + ½ ε V_x t), the exact flow of -½ V (V·ε), then mean velocity zero.
@@ -86,20 +119,24 @@ class HeatFluxForce(eqx.Module):
         return centred(forced), jnp.max(-strength)
 
     def step(self, key: Key, velocity: Velocity, majorant: Scalar, duration: Scalar, options):
+        """One time step."""
+        return self.forced(key, velocity, majorant, duration, options)[:2]
+
+    def forced(self, key: Key, velocity: Velocity, majorant: Scalar, duration: Scalar, options):
         """Half a flow, collisions, half a flow; or collisions and the paper's explicit step.
 
         With first-order splitting the whole flow comes first.
         """
         if self.scheme == "paper":
-            velocity, tally = collide(key, self.gas, options.plan, velocity, majorant, duration)
+            velocity, tally = self.collide(key, velocity, majorant, duration, options)
             strength = (0.5 * self.field * duration) * velocity[0]
             velocity = tuple(v - strength * v for v in velocity)
             velocity, _ = held_at(velocity, INITIAL_TEMPERATURE)
             return velocity, tally, jnp.max(-strength)
-        share = 0.5 if options.splitting == "strang" else 1.0
+        share, rest = options.halves
         velocity, before = self.flow(velocity, share * duration)
-        velocity, tally = collide(key, self.gas, options.plan, velocity, majorant, duration)
-        velocity, after = self.flow(velocity, (1.0 - share) * duration)
+        velocity, tally = self.collide(key, velocity, majorant, duration, options)
+        velocity, after = self.flow(velocity, rest * duration)
         return velocity, tally, jnp.maximum(before, after) / share
 
     def advance(self, key: Key, state: HomogeneousState, options: Options):
@@ -108,23 +145,17 @@ class HeatFluxForce(eqx.Module):
         sampled = heat_moments(velocity)
 
         def step(key, velocity, majorant, duration):
-            velocity, tally, runaway = self.step(key, velocity, majorant, duration, options)
-            return velocity, tally, (runaway, HomogeneousState.temperature_of(velocity))
+            velocity, tally, runaway = self.forced(key, velocity, majorant, duration, options)
+            return velocity, tally, (runaway, temperature_of(velocity))
 
         velocity, majorant, tally, elapsed, (runaway, after) = make_steps(
-            step,
-            key,
-            velocity,
-            state.majorant,
-            sampled.isotropic.temperature(),
-            0.0,
-            options,
+            *(step, key, velocity, state.majorant),
+            *(sampled.isotropic.temperature(), 0.0, options),
         )
-        root, cube = slowed_rates(after)
+        root, cube = slowed_rates(after, 1.0)
         record = HeatRecord(
-            sampled,
-            tally,
-            elapsed * root,
+            *(sampled, tally, elapsed * root),
+            jnp.zeros_like(root),
             jnp.stack([jnp.ones_like(root), cube / root]),
             jnp.nanmax(runaway),
             elapsed / options.steps,
@@ -133,34 +164,41 @@ class HeatFluxForce(eqx.Module):
 
     def finish_chunk(self, state: HomogeneousState) -> tuple[HomogeneousState, MarginalVelocity]:
         """Sample the distribution of c_x and deal the particles into new rows."""
-        sample = marginal_velocity(state.velocity)
-        return HomogeneousState(tuple(map(remix, state.velocity)), state.majorant), sample
+        mixed, _ = super().finish_chunk(state)
+        return mixed, marginal_velocity(state.velocity)
 
     def faults(self, record: HeatRecord) -> str:
-        """Why this record cannot be trusted, or an empty string."""
-        point, _, number = np.unravel_index(np.nanargmax(record.runaway), record.runaway.shape)
+        """A force that drives particles away."""
+        realization, number = np.unravel_index(np.nanargmax(record.runaway), record.runaway.shape)
         if np.nanmax(record.runaway) < RUNAWAY:
             return ""
-        field = float(self.field[point])
-        step = float(np.min(record.step[point, :, number]))
-        speed = 2 * RUNAWAY / field / step
+        step = float(np.min(record.step[:, number]))
+        speed = 2 * RUNAWAY / self.field / step
         return (
-            f"The heat-flux force runs away with the fastest particles: at field = {field:g} and a "
-            f"time step of {step:.2g} τ0 one is faster than {speed:.2g} v0 and would reach "
-            f"infinity within {1 / RUNAWAY:.0f} steps. Reduce field, or time_step."
+            f"The heat-flux force runs away with the fastest particles: at field = {self.field:g} "
+            f"and a time step of {step:.2g} τ0 one (of realization {realization}) is faster than "
+            f"{speed:.2g} v0 and would reach infinity within {1 / RUNAWAY:.0f} steps. Reduce "
+            "field, or time_step."
         )
 
     def averages(self, record: HeatRecord) -> dict[str, np.ndarray]:
-        """Averages over the particles at each record."""
-        return heat_averages(record)
-
-    def evolution(self, means: dict) -> dict:
-        """Nothing but the observables; for the time series only."""
-        return {}
+        """Averages over the particles at each record, odd ones included."""
+        m = record.moments
+        averages = homogeneous_averages(self.gas, m.isotropic, record.slowing)
+        del averages["instant_rate"]  # the steps know better
+        return averages | odd_averages(m, averages["temperature"])
 
     def observables(self, means: dict) -> dict:
         """Conductivity, Sonine coefficients and cumulants."""
-        return heat_observables(means, self.field)
+        return super().observables(means) | responses(means, self.field)
+
+    def sample_densities(self, sample: dict) -> dict:
+        """The density of c_x."""
+        return {"marginal_x": sample["marginal_x"] / BIN_WIDTH}
+
+    def axes(self) -> dict:
+        """Sonine orders beside those of every homogeneous gas."""
+        return super().axes() | {"sonine_order": np.arange(1, 4)}
 
 
 RUNAWAY = 0.3

@@ -1,9 +1,8 @@
-"""Homogeneous cooling: a gas left alone loses energy and keeps a steady reduced distribution.
+"""Homogeneous cooling: a gas left alone loses energy.
 
-Hard-sphere collisions know no time scale but the velocities', so that multiplying all velocities by
-a number only changes the unit of time. The simulation uses this: at every record velocities are
-scaled back to T0 and the logarithm of the scale is kept, which gives Haff's law in plain time and
-the steady state in reduced time from one run, exactly, without a thermostat and without underflow.
+Where nothing but the velocities sets a scale of time, the reduced distribution becomes steady and
+the gas is simulated at T0 (see `scaled`). A gas with a speed of its own (a restitution that depends
+on the impact, say) is simulated as it is: its distribution changes for ever.
 """
 
 from typing import ClassVar
@@ -11,21 +10,24 @@ from typing import ClassVar
 import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
 
-from ..collide import collide
-from ..gas import INITIAL_TEMPERATURE, AbstractGas
-from ..measure import Distributions, Record, distributions, moments
-from ..observables import isotropic, particle_means
-from ..options import Options
-from ..pace import make_steps
-from ..pairs import remix
-from ..state import HomogeneousState, held_at
+from ..collisions.meet import Collisions
+from ..gases import AbstractGas
+from ..measure.moments import Distributions, moments
+from ..measure.observable import Observable
+from ..measure.observables import REDUCED, TEMPERATURE
+from ..motion.drive import centred, temperature_of
 from ..types import Key, Scalar, Velocity
+from ..units import INITIAL_TEMPERATURE
+from .approach import UNKNOWN, VELOCITIES, Approach
+from .homogeneous import AbstractHomogeneous, HomogeneousRecord, HomogeneousState
+from .options import Options
+from .pace import make_steps
+from .scaled import check_without_drag, plain_time, scaled_to_start, scaling_exponent, slowed_rates
 
 
 class CoolingState(eqx.Module):
-    """Velocities scaled to T0 (at the start of a record), majorant over v0(T), log of the scale.
+    """Velocities (scaled to T0 at the start of a record), majorant over v0(T), log of the scale.
 
     The true velocities are exp(log_scale) times these.
     """
@@ -35,104 +37,109 @@ class CoolingState(eqx.Module):
     log_scale: Scalar
 
 
-class HomogeneousCooling(eqx.Module):
+class HomogeneousCooling(AbstractHomogeneous):
     """A gas that cools freely from a Maxwellian at T0.
 
-    Arguments: `gas`, one without drag (`InelasticHardSpheres`).
-    Steady values are those of the reduced distribution (a2, a3, ...); the series has T/T0 against
-    plain time (Haff's law) and `reduced_time`, ∫ dt √(T/T0).
+    Arguments: `gas`, any without drag.
+    Steady values are those of the reduced distribution (a2, a3, ...), which there are if the gas
+    has no speed of its own. The series has T/T0 against plain time (Haff's law) and `reduced_time`,
+    the time in units of τ(T)/τ(T0).
     """
 
-    steady_observables: ClassVar[tuple[str, ...]] = (
-        *("relative_speed_cubed", "relative_speed_cubed_collisional", "a2", "a3"),
-        *("speed_ratio", "collision_rate_ratio"),
+    command: ClassVar[str] = "cooling"
+    dimensions: ClassVar[tuple[int, ...]] = (2, 3)
+    reports: ClassVar[tuple[Observable, ...]] = (
+        *(one for one in REDUCED if one.name == "relative_speed_cubed"),
+        *(one for one in REDUCED if one.name != "relative_speed_cubed"),
     )
-    densities: ClassVar[dict[str, float]] = {"marginal_x": 0.5, "marginal_y": 0.5, "speed": 1.0}
+    evolves: ClassVar[tuple[Observable, ...]] = (
+        TEMPERATURE,
+        Observable("log_temperature", "ln T/T0", symbol="ln T/T0"),
+        Observable("reduced_time", "reduced time ∫ dt τ0/τ(T)", "τ0", symbol="reduced time"),
+    )
     monitored: ClassVar[tuple[str, ...]] = ("fourth", "sixth", "cubed")
-    default_observable: ClassVar[str] = "relative_speed_cubed"
-    default_particles: ClassVar[int] = 20_000
 
     gas: AbstractGas
+    exponent: float | None = eqx.field(init=False, static=True)
+
+    def __post_init__(self):
+        self.exponent = scaling_exponent(self.gas)
 
     def __check_init__(self):
         check_without_drag(self.gas, "HomogeneousCooling")
 
+    def fit_options(self, options: Options) -> Options:
+        """Only collisions act, so that there is nothing to split."""
+        if options.splitting != "strang":
+            raise ValueError("splitting = 'lie' has no meaning here: only collisions act.")
+        return options
+
     def has_steady_state(self) -> bool:
-        """The reduced distribution always becomes steady."""
-        return True
+        """True if the reduced distribution becomes steady: for a gas without a speed of its own."""
+        return self.exponent is not None
+
+    def no_steady_state(self) -> str:
+        """A gas with a speed of its own changes for ever."""
+        return "its gas has a speed of its own, so that it changes for ever; give duration"
+
+    def approach(self) -> Approach:
+        """A few collisions per particle."""
+        return UNKNOWN if self.exponent is None else VELOCITIES
 
     def initial(self, key: Key, options: Options) -> CoolingState:
         """Maxwellian velocities with mean exactly zero and temperature exactly T0."""
-        start = HomogeneousState.maxwellian(key, options, INITIAL_TEMPERATURE)
+        start: HomogeneousState = super().initial(key, options)
         return CoolingState(start.velocity, start.majorant, jnp.zeros((), options.dtype))
 
+    def step(
+        self, key: Key, velocity: Velocity, majorant: Scalar, duration: Scalar, options: Options
+    ) -> tuple[Velocity, Collisions]:
+        """Collisions, and nothing else."""
+        return self.collide(key, velocity, majorant, duration, options)
+
     def advance(self, key: Key, state: CoolingState, options: Options):
-        """One record: scale to T0, measure, then `options.steps` collision stages."""
-        velocity, log_scale = scaled_to_start(state.velocity, state.log_scale)
+        """One record: scale to T0 if that is allowed, measure, then make the steps."""
+        velocity, log_scale = centred(state.velocity), state.log_scale
+        if self.exponent is not None:
+            velocity, log_scale = scaled_to_start(state.velocity, log_scale)
         sampled = moments(velocity)
 
         def step(key, velocity, majorant, duration):
-            velocity, tally = collide(key, self.gas, options.plan, velocity, majorant, duration)
-            return velocity, tally, HomogeneousState.temperature_of(velocity)
+            velocity, tally = self.step(key, velocity, majorant, duration, options)
+            return velocity, tally, temperature_of(velocity)
 
         velocity, majorant, tally, elapsed, after = make_steps(
             step, key, velocity, state.majorant, sampled.temperature(), 0.0, options
         )
-        slowing = slowed_rates(after)
-        record = Record(sampled, tally, elapsed, jnp.exp(log_scale), slowing)
+        slowing = jnp.ones(2, elapsed.dtype)
+        if self.exponent is not None:
+            slowing = slowed_rates(after, self.exponent)
+        record = HomogeneousRecord(sampled, tally, elapsed, log_scale, slowing)
         return CoolingState(velocity, majorant, log_scale), record
 
     def finish_chunk(self, state: CoolingState) -> tuple[CoolingState, Distributions]:
         """Sample the velocity distributions and deal the particles into new rows."""
-        sample = distributions(state.velocity)
-        mixed = tuple(map(remix, state.velocity))
-        return CoolingState(mixed, state.majorant, state.log_scale), sample
+        mixed, sample = super().finish_chunk(HomogeneousState(state.velocity, state.majorant))
+        return CoolingState(mixed.velocity, mixed.majorant, state.log_scale), sample
 
-    def faults(self, record: Record) -> str:
-        """Nothing can fail here that does not fail in every scene."""
-        return ""
-
-    def averages(self, record: Record) -> dict[str, np.ndarray]:
-        """Averages over the particles at each record."""
-        return particle_means(record)
+    def averages(self, record: HomogeneousRecord) -> dict[str, np.ndarray]:
+        """Averages over the particles at each record, the true temperature, the plain time."""
+        averages = super().averages(record)
+        log_scale = record.log_scale
+        if self.exponent is not None:
+            averages["plain_time"] = plain_time(record.elapsed, log_scale, self.exponent)
+            del averages["instant_rate"]  # the steps know better
+        with np.errstate(under="ignore"):
+            averages["true_temperature"] = averages["temperature"] * np.exp(2.0 * log_scale)
+        log_temperature = np.log(averages["temperature"] / INITIAL_TEMPERATURE) + 2.0 * log_scale
+        return averages | {"log_temperature": log_temperature}
 
     def observables(self, means: dict) -> dict:
-        """Observables of the reduced distribution."""
-        reduced = isotropic(means)
-        del reduced["temperature"]
+        """Observables of the reduced distribution; for a time series also what changes for ever."""
+        reduced = super().observables(means)
+        reduced["temperature"] = means["true_temperature"] / INITIAL_TEMPERATURE
+        reduced["log_temperature"] = means["log_temperature"]
+        if "local_collisions" in means:
+            per_time = self.gas.collision_rate(INITIAL_TEMPERATURE)
+            reduced["reduced_time"] = means["local_collisions"] / per_time
         return reduced
-
-    def evolution(self, means: dict) -> dict:
-        """What changes for ever, for the time series only."""
-        scale = means["scale"]
-        return {
-            "temperature": means["temperature"] * scale**2 / INITIAL_TEMPERATURE,
-            "reduced_time": np.sqrt(np.pi) * means["local_collisions"],
-        }
-
-
-def scaled_to_start(velocity: Velocity, log_scale: Scalar) -> tuple[Velocity, Scalar]:
-    """Velocities with mean zero and temperature T0, and the logarithm of their scale."""
-    velocity, factor = held_at(velocity, INITIAL_TEMPERATURE)
-    return velocity, log_scale - jnp.log(factor)
-
-
-def slowed_rates(after: Float[Array, " steps"]) -> Float[Array, "2"]:
-    """Averages over the steps of (T/T0)^{1/2} and (T/T0)^{3/2}, by the trapezoidal rule.
-
-    `after` are the temperatures after each step; the first started at T0.
-    """
-    root = jnp.sqrt(jnp.concatenate([jnp.ones(1, after.dtype), after / INITIAL_TEMPERATURE]))
-    both = jnp.stack([root, root**3])
-    return jnp.mean(0.5 * (both[:, 1:] + both[:, :-1]), axis=1)
-
-
-def check_without_drag(gas, scene: str) -> None:
-    """Raise TypeError unless the gas is one without drag."""
-    if not isinstance(gas, AbstractGas):
-        raise TypeError(f"gas must be a jdsmc gas, got {gas!r}.")
-    if gas.frictional:
-        raise TypeError(
-            f"{scene} needs a gas without drag (a drag only changes the scale of velocities); use "
-            "InelasticHardSpheres."
-        )

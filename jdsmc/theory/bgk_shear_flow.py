@@ -34,8 +34,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import solve_ivp
 from scipy.special import erf, erfc, i0e
 
+from ..units import VISCOSITY_TIME
+
 Floats = NDArray[np.float64]
-VISCOSITY_TIME = 1.016 * 5 * sqrt(pi) / 8  # tau_eta / tau, Eq. (2.18)
 
 
 @dataclass(frozen=True)

@@ -41,6 +41,7 @@ from dataclasses import dataclass
 
 from numpy.typing import ArrayLike
 
+from ..units import INITIAL_TEMPERATURE
 from .homogeneous_cooling import (
     Floats,
     checked_dimension,
@@ -49,8 +50,6 @@ from .homogeneous_cooling import (
     effective_frequency,
     kurtosis,
 )
-
-REFERENCE_TEMPERATURE = 0.5  # T0 in units of m v0^2
 
 
 @dataclass(frozen=True)
@@ -96,7 +95,7 @@ def elastic_conductivity(dimension: int = 3) -> float:
     ValueError unless `dimension` is an integer >= 2. For spheres 75 sqrt(pi)/64.
     """
     d = checked_dimension(dimension)
-    return d * (d + 2) / (2 * (d - 1)) * REFERENCE_TEMPERATURE / effective_frequency(d)
+    return d * (d + 2) / (2 * (d - 1)) * INITIAL_TEMPERATURE / effective_frequency(d)
 
 
 def elastic_viscosity(dimension: int = 3) -> float:
@@ -104,7 +103,7 @@ def elastic_viscosity(dimension: int = 3) -> float:
 
     ValueError unless `dimension` is an integer >= 2. For spheres 5 sqrt(pi)/16.
     """
-    return REFERENCE_TEMPERATURE / effective_frequency(dimension)
+    return INITIAL_TEMPERATURE / effective_frequency(dimension)
 
 
 def elastic_sonine_coefficient(dimension: int = 3) -> float:

@@ -1,27 +1,13 @@
-"""How results are shown to people: tables and pictures, one file a scene."""
+"""How results are shown to people: tables and pictures."""
 
-from ..impulse import view as navier_stokes
-from . import fourier_flow, heat_flux_force, homogeneous_cooling, sheared_slab, uniform_shear
-
-_SCENES = {
-    "FourierFlow": fourier_flow,
-    "ShearedSlab": sheared_slab,
-    "UniformShear": uniform_shear,
-    "HomogeneousCooling": homogeneous_cooling,
-    "HeatFluxForce": heat_flux_force,
-    "NavierStokes": navier_stokes,
-}
-
-
-def _view(result):
-    return _SCENES[result.attrs["scene"]]
+from . import generic
 
 
 def table(result) -> str:
     """Steady values with errors, beside theory."""
-    return _view(result).table(result)
+    return generic.table(result)
 
 
 def draw(result):
     """The matplotlib figure of a result."""
-    return _view(result).draw(result)
+    return generic.draw(result)

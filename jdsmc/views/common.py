@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import xarray as xr
 
-from ..result import format_estimate
+from ..results.result import format_estimate
 
 MARKERS = "osD^v"
 MOST_CURVES = 6

@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from ..result import format_estimate
+from ..results.result import format_estimate
 from . import common
 
 FLUXES = {

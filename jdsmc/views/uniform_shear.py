@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from ..result import format_estimate
+from ..results.result import format_estimate
 from ..theory import bgk_shear_flow
 from . import common
 

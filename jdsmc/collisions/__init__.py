@@ -1,0 +1,1 @@
+"""Collision stages: candidate pairs without a conflict, met, scattered, and counted."""

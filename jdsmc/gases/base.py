@@ -1,0 +1,84 @@
+"""The physics of one pair: how often two particles collide and what a collision does.
+
+Units: m = 1, λ0 = 1, v0 = √(2 T0/m) = 1, hence τ0 = 1 and T0 = 1/2, at the mean density.
+"""
+
+from abc import abstractmethod
+from typing import Any, ClassVar
+
+import equinox as eqx
+import numpy as np
+
+from .. import sweep
+from ..fields import check_fields
+from ..units import INITIAL_TEMPERATURE
+from . import local
+
+
+class AbstractGas(eqx.Module):
+    """A gas of identical particles: the collision rate of a pair, and the collision rule.
+
+    A new gas states two things, `rate` and `momentum_transfer`. The rest is found from these by
+    quadrature, or stated by a gas that knows it in closed form. For instance, spheres whose
+    restitution falls with the impact speed:
+
+        class Viscoelastic(jdsmc.AbstractGas):
+            dissipation: Any = jdsmc.number("A in α = 1 - A g^{1/5}", low=0.0, high=1.0)
+
+            def rate(self, speed):
+                return speed
+
+            def momentum_transfer(self, relative_velocity, outgoing):
+                normal = impact_speed(relative_velocity, outgoing)
+                share = (2.0 - self.dissipation * normal**0.2) / 4.0
+                return tuple(share * (g - e) for g, e in zip(relative_velocity, outgoing))
+
+    `dimension` is the number of velocity components. Numbers may be arrays (sweeps); every method
+    but `check` sees scalars.
+    """
+
+    dimension: ClassVar[int] = 3
+
+    def __check_init__(self):
+        check_fields(self)
+
+    @abstractmethod
+    def rate(self, speed) -> Any:
+        """Collision rate of a pair at a relative speed (v0): `speed` itself for hard spheres."""
+
+    @abstractmethod
+    def momentum_transfer(self, relative_velocity, outgoing) -> Any:
+        """Momentum given by the first to the second particle, component by component.
+
+        `outgoing` is the relative velocity after an *elastic* collision of the same geometry.
+        """
+
+    # What follows is asked on the host, of one gas.
+
+    def speed_exponent(self) -> float | None:
+        """γ of a rate ∝ g^γ whose collision rule has no scale of speed; None if there is one.
+
+        1 for hard spheres and 0 for Maxwell molecules: multiplying all velocities by a number is
+        then a change of the unit of time, and η, κ ∝ T^{1-γ/2}.
+        """
+        return local.speed_exponent(self)
+
+    def collision_rate(self, temperature):
+        """Collisions per particle and time (1/τ0) of a Maxwellian at T (m v0²), mean density."""
+        return local.collision_rate(self, temperature)
+
+    def energy_loss_rate(self, temperature):
+        """Energy lost in collisions per particle and time (m v0²/τ0) of such a Maxwellian."""
+        return local.energy_loss_rate(self, temperature)
+
+
+def speed_exponent(gas: AbstractGas) -> float | None:
+    """The common exponent of a swept gas; None if a point has none or another."""
+    found = {one.speed_exponent() for one in sweep.points(gas)[0]}
+    return found.pop() if len(found) == 1 else None
+
+
+def conserves_energy(gas: AbstractGas) -> bool:
+    """True if no point of a swept gas loses energy in collisions."""
+    losses = [one.energy_loss_rate(INITIAL_TEMPERATURE) for one in sweep.points(gas)[0]]
+    return not np.any(np.asarray(losses) > 0)

@@ -1,0 +1,102 @@
+"""Local equilibrium of any gas, by quadrature over pairs of a Maxwellian. On the host.
+
+The relative speed g of two particles at temperature T (m = 1) has the density
+∝ g^{d-1} exp(-g²/4T). N particles of a homogeneous gas collide, per pair, at `rate`/(√2 N).
+"""
+
+import math
+
+import numpy as np
+from scipy.special import gamma, roots_genlaguerre
+
+NODES = 48
+"""Speeds; exact for polynomials of g², and to 1e-6 or better for odd powers of g."""
+
+DIRECTIONS = 33
+"""Impact parameters, by Gauss-Legendre; exact for polynomials, to 1e-6 for rough ones."""
+
+ROUNDING = 1e-6
+"""Share of the energy that a gas which computes in float32 may seem to lose by rounding."""
+
+PROBES = np.geomspace(0.02, 20.0, 7)
+"""Relative speeds (v0) at which a power law is looked for."""
+
+
+def relative_speeds(temperature, dimension: int) -> tuple[np.ndarray, np.ndarray]:
+    """Speeds of shape (..., nodes) for temperatures of shape (...), and weights that sum to one.
+
+    With x = g²/4T the weight is x^{(d-2)/2} e^{-x}; one half is taken off its exponent, so that
+    g times a polynomial of g² is integrated exactly (a collision rate is such a thing).
+    """
+    power = 0.5 * (dimension - 1)
+    nodes, weights = roots_genlaguerre(NODES, power)
+    speeds = 2.0 * np.sqrt(np.asarray(temperature, dtype=float)[..., None] * nodes)
+    return speeds, weights / np.sqrt(nodes) / gamma(0.5 * dimension)
+
+
+def mean_over_pairs(gas, function, temperature):
+    """Average of a function of the relative speed over pairs of a Maxwellian at T."""
+    speeds, weights = relative_speeds(temperature, gas.dimension)
+    return np.sum(np.asarray(function(speeds), dtype=float) * weights, axis=-1)
+
+
+def collision_rate(gas, temperature):
+    """Collisions per particle and time: half of ⟨rate⟩/√2, since two particles share each."""
+    return mean_over_pairs(gas, gas.rate, temperature) / (2.0 * math.sqrt(2.0))
+
+
+def energy_loss_rate(gas, temperature):
+    """Energy lost per particle and time; exactly zero if it is within rounding of that."""
+
+    def loss(speeds):
+        return np.asarray(gas.rate(speeds), dtype=float) * energy_lost(gas, speeds)
+
+    def all_of_it(speeds):
+        return np.asarray(gas.rate(speeds), dtype=float) * speeds**2 / 4.0
+
+    lost, most = (mean_over_pairs(gas, f, temperature) for f in (loss, all_of_it))
+    return np.where(np.abs(lost) > ROUNDING * most, lost, 0.0) / (2.0 * math.sqrt(2.0))
+
+
+def energy_lost(gas, speeds) -> np.ndarray:
+    """Mean kinetic energy (m v0²) that a pair of a relative speed loses in one collision.
+
+    With a transfer t the loss is t·(g - t), averaged over the impact parameters of hard spheres
+    (d = 3: outgoing directions of uniform cosine) or disks (uniform sine of the impact angle).
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(DIRECTIONS)
+    cosine = nodes if gas.dimension == 3 else 2.0 * nodes**2 - 1.0
+    relative, transfer = _transfer(gas, speeds, cosine)
+    pieces = [t * (g - t) for t, g in zip(transfer, relative, strict=True)]
+    return np.sum(sum(pieces) * weights, axis=-1) / 2.0
+
+
+def _transfer(gas, speeds, cosine):
+    """Relative velocities along x and what the gas transfers: components (speeds, directions)."""
+    speed, cosine = np.broadcast_arrays(np.asarray(speeds, dtype=float)[..., None], cosine)
+    zero = np.zeros_like(speed)
+    rest = (zero,) * (gas.dimension - 2)
+    outgoing = (speed * cosine, speed * np.sqrt(np.maximum(1.0 - cosine**2, 0.0)), *rest)
+    relative = (speed, zero, *rest)
+    transfer = gas.momentum_transfer(relative, outgoing)
+    return relative, [np.broadcast_to(np.asarray(t, dtype=float), speed.shape) for t in transfer]
+
+
+def speed_exponent(gas) -> float | None:
+    """The exponent of a rate that is a power of the speed, if the transfer is linear in speed."""
+    rates = np.broadcast_to(np.asarray(gas.rate(PROBES), dtype=float), PROBES.shape)
+    if np.any(rates <= 0):
+        return None
+    exponents = np.diff(np.log(rates)) / np.diff(np.log(PROBES))
+    if np.ptp(exponents) > 1e-4:  # float32 rounding over the smallest ratio of two probes: 1e-6
+        return None
+    shares = _transfer_shares(gas)
+    if np.max(np.abs(shares - shares[0])) > 1e-5:
+        return None
+    return float(np.round(np.mean(exponents), 5))
+
+
+def _transfer_shares(gas) -> np.ndarray:
+    """Transfer over speed for a few directions, at every probed speed: (speeds, numbers)."""
+    _, transfer = _transfer(gas, PROBES, np.cos(np.array([0.3, 1.1, 2.0, 2.9])))
+    return np.concatenate([t / PROBES[:, None] for t in transfer], axis=1)

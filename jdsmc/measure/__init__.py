@@ -1,0 +1,1 @@
+"""Sums over particles on the device; observables from their averages on the host."""

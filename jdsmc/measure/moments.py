@@ -1,0 +1,115 @@
+"""Sums over the particles of a homogeneous gas, on the device; ratios are taken on the host."""
+
+from typing import Any
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from ..motion.drive import mean
+from ..types import Scalar, Velocity
+
+SPEED_CLASSES = (1.0, 2.0, 3.0)
+"""Inner limits C_1..C_3 of the speed classes of eq. (3.15), in units of v0(T)."""
+
+BIN_WIDTH = 0.1
+LARGEST_VELOCITY = 10.0
+"""Histograms cover |C| < 10; what lies beyond is left out of them, not moved into the last bin."""
+
+
+class Moments(eqx.Module):
+    """Means over the particles at one instant (units of v0).
+
+    `xx`..`xy`: ⟨V_i V_j⟩ (no `zz` in two dimensions); `fourth`, `sixth`: ⟨V⁴⟩, ⟨V⁶⟩; `cubed`:
+    ⟨V12³⟩ over N/2 pairs; `classes`: fractions of particles with C in [0,1), [1,2), [2,3), [3,∞).
+    """
+
+    xx: Scalar
+    yy: Scalar
+    zz: Scalar | None
+    xy: Scalar
+    fourth: Scalar
+    sixth: Scalar
+    cubed: Scalar
+    classes: Float[Array, "4"]
+
+    def temperature(self) -> Scalar:
+        """T = m⟨V²⟩/d, eq. (4.15)."""
+        return temperature(self)
+
+
+def temperature(m) -> Any:
+    """T of moments on the device, or of averages of them on the host."""
+    return (m.xx + m.yy) / 2.0 if m.zz is None else (m.xx + m.yy + m.zz) / 3.0
+
+
+class Distributions(eqx.Module):
+    """Fractions of particles in velocity bins of width 0.1 v0(T), at one instant.
+
+    `marginal_x`: C_x sign(C_y), so that both halves of eq. (5.3) are used; `marginal_y` likewise;
+    `speed`: C.
+    """
+
+    marginal_x: Float[Array, " bins"]
+    marginal_y: Float[Array, " bins"]
+    speed: Float[Array, " half_bins"]
+
+
+def pair_cubed(velocity: Velocity) -> Scalar:
+    """⟨|V_1 - V_2|³⟩ over N/2 pairs: a particle of the first half of the rows, one of the second.
+
+    Particles are exchangeable, so a fixed choice of pairs is as good as a random one and costs no
+    random access. The second is taken one lane further on: partners of a collision are left in the
+    same lane of their rows, and would be met here 1/rows instead of 1/N of the time.
+    """
+    half = velocity[0].shape[0] // 2
+    squared = sum((v[:half] - jnp.roll(v[half : 2 * half], 1, axis=1)) ** 2 for v in velocity)
+    return mean(squared * jnp.sqrt(squared))
+
+
+def moments(velocity: Velocity) -> Moments:
+    """All moments of one instant."""
+    vx, vy, *rest = velocity
+    squared = sum(v * v for v in velocity)
+    diagonal = [mean(v * v) for v in velocity]
+    thermal = (2.0 / len(velocity)) * sum(diagonal)
+    below = [mean((squared < c * c * thermal).astype(vx.dtype)) for c in SPEED_CLASSES]
+    edges = jnp.stack([jnp.zeros_like(thermal), *below, jnp.ones_like(thermal)])
+    return Moments(
+        diagonal[0],
+        diagonal[1],
+        diagonal[2] if rest else None,
+        mean(vx * vy),
+        mean(squared * squared),
+        mean(squared * squared * squared),
+        pair_cubed(velocity),
+        jnp.diff(edges),
+    )
+
+
+def distributions(velocity: Velocity) -> Distributions:
+    """Histograms of one instant, in units of the thermal speed of that instant."""
+    vx, vy, *_ = velocity
+    squared = sum(v * v for v in velocity)
+    scale = jnp.sqrt(0.5 * len(velocity) / mean(squared))
+    return Distributions(
+        histogram(vx * jnp.sign(vy) * scale, symmetric=True),
+        histogram(vy * jnp.sign(vx) * scale, symmetric=True),
+        histogram(jnp.sqrt(squared) * scale, symmetric=False),
+    )
+
+
+def histogram(values, *, symmetric: bool):
+    """Fractions of values in the bins of `bin_centres`."""
+    last = round(LARGEST_VELOCITY / BIN_WIDTH)
+    first = -last if symmetric else 0
+    index = jnp.floor(values / BIN_WIDTH).astype(jnp.int32).ravel() - first
+    counts = jnp.zeros(last - first, jnp.int32).at[index].add(1, mode="drop")
+    return counts.astype(values.dtype) / values.size
+
+
+def bin_centres(symmetric: bool) -> np.ndarray:
+    """Centres of the bins: of `marginal_x`, `marginal_y` (symmetric) or of `speed`."""
+    half = round(LARGEST_VELOCITY / BIN_WIDTH)
+    return (np.arange(-half if symmetric else 0, half) + 0.5) * BIN_WIDTH

@@ -1,0 +1,1 @@
+"""What moves particles between collisions: flows of velocity, flights, walls, cells."""

@@ -1,0 +1,129 @@
+"""Free flight between two walls under gravity, and across Lees-Edwards planes."""
+
+import equinox as eqx
+import jax.numpy as jnp
+from jax import lax
+from jaxtyping import Array, Bool
+
+from ..random import Stream
+from ..types import Key, Positions, Scalar, Velocities
+from .walls import Walls
+
+MOST_BOUNCES = 100
+"""Wall hits of one particle in one step; a particle still flying then is counted as lost."""
+
+
+class Exchange(eqx.Module):
+    """What the walls did: energy given to the gas by the walls at z = 0 and z = L (m v0²),
+    and particles that could not finish their flight."""
+
+    cold_energy: Scalar
+    hot_energy: Scalar
+    lost: Scalar
+
+    @staticmethod
+    def none(dtype) -> "Exchange":
+        """Nothing happened yet."""
+        zero = jnp.zeros((), dtype)
+        return Exchange(zero, zero, zero)
+
+    def then(self, later: "Exchange") -> "Exchange":
+        """This and what came later."""
+        return Exchange(
+            self.cold_energy + later.cold_energy,
+            self.hot_energy + later.hot_energy,
+            self.lost + later.lost,
+        )
+
+
+def fly(
+    key: Key,
+    walls: Walls,
+    position: Positions,
+    velocity: Velocities,
+    gravity: Scalar,
+    length: Scalar,
+    duration: Scalar,
+) -> tuple[Positions, Velocities, Exchange]:
+    """Parabolic flight with acceleration -g ẑ; who hits a wall flies on with what it gives back."""
+    remaining = jnp.full_like(position, duration)
+
+    def any_left(carry):
+        number, (_, _, remaining, _) = carry
+        return (number < MOST_BOUNCES) & jnp.any(remaining > 0)
+
+    def once_more(carry):
+        number, flights = carry
+        stream = Stream.FLIGHT + 2 * number
+        return number + 1, _fly_once(key, stream, walls, flights, gravity, length)
+
+    flights = (position, velocity, remaining, Exchange.none(position.dtype))
+    first = once_more((jnp.asarray(0, jnp.int32), flights))  # nearly always all there is
+    _, (position, velocity, remaining, exchange) = lax.while_loop(any_left, once_more, first)
+    lost = jnp.sum((remaining > 0).astype(position.dtype))
+    return position, velocity, eqx.tree_at(lambda e: e.lost, exchange, lost)
+
+
+def _fly_once(key: Key, stream, walls: Walls, flights, gravity: Scalar, length: Scalar):
+    """Fly until a wall is hit, take a new velocity there, and fly on unless a wall is hit again."""
+    position, (vx, vy, vz), remaining, exchange = flights
+    time, at_top = first_hit(position, vz, gravity, length)
+    hit = time < remaining
+    time = jnp.minimum(time, remaining)
+    flown = position + time * (vz - 0.5 * gravity * time)
+    arriving = vz - gravity * time
+    place = jnp.where(hit, jnp.where(at_top, length, 0.0), flown)
+    rest = remaining - time
+    new = lax.optimization_barrier(walls.emit(key, stream, at_top, vz))
+    gained = 0.5 * (sum(v * v for v in new) - (vx * vx + vy * vy + arriving * arriving))
+    vx, vy, vz = (
+        jnp.where(hit, emitted, old) for emitted, old in zip(new, (vx, vy, arriving), strict=True)
+    )
+    again = hit & (first_hit(place, vz, gravity, length)[0] < rest)
+    rest_now = jnp.where(again, 0.0, rest)
+    # only rounding can carry a flight without a hit past a wall
+    place = jnp.clip(place + rest_now * (vz - 0.5 * gravity * rest_now), 0.0, length)
+    now = Exchange(
+        jnp.sum(jnp.where(hit & ~at_top, gained, 0.0)),
+        jnp.sum(jnp.where(hit & at_top, gained, 0.0)),
+        jnp.zeros((), position.dtype),
+    )
+    velocity = (vx, vy, vz - gravity * rest_now)
+    return place, velocity, jnp.where(again, rest, 0.0), exchange.then(now)
+
+
+def first_hit(position: Positions, speed: Positions, gravity: Scalar, length: Scalar):
+    """Time until a wall is hit, and whether it is the upper one."""
+    to_bottom = time_to_floor(position, speed, gravity)
+    to_top = time_to_floor(length - position, -speed, -gravity)
+    return jnp.minimum(to_bottom, to_top), to_top < to_bottom
+
+
+def time_to_floor(height: Positions, speed: Positions, gravity: Scalar) -> Positions:
+    """When h + v t - g t²/2 = 0 for the first t > 0, infinite if never; h >= 0.
+
+    Two forms of the root, each without cancellation: downwards 2h/(|v| + √(v² + 2gh)), upwards
+    (v + √(v² + 2gh))/g, which also holds for a start on the floor.
+    """
+    never = jnp.asarray(jnp.inf, height.dtype)
+    discriminant = speed * speed + 2.0 * gravity * height
+    root = jnp.sqrt(jnp.maximum(discriminant, 0.0))
+    downwards = 2.0 * height / (jnp.maximum(-speed, 0.0) + root)
+    falling_back = (jnp.maximum(speed, 0.0) + root) / jnp.where(gravity > 0, gravity, 1.0)
+    down = jnp.where((speed < 0) & (discriminant >= 0), downwards, never)
+    return jnp.where((speed >= 0) & (gravity > 0), falling_back, down)
+
+
+def cross_planes(
+    position: Positions, velocity: Velocities, shear_rate: Scalar, length: Scalar, duration: Scalar
+) -> tuple[Positions, Velocities]:
+    """Flight along y through Lees-Edwards planes: v_x jumps by ∓aL at each image passed."""
+    vx, vy, vz = velocity
+    flown = position + vy * duration
+    images = jnp.floor(flown / length)
+    # rounding can leave a particle on the upper edge: it belongs to the lower one of the next image
+    inside = flown - images * length
+    over: Bool[Array, " particles"] = inside >= length
+    inside = jnp.where(over, 0.0, jnp.maximum(inside, 0.0))
+    images = images + over.astype(vx.dtype)
+    return inside, (vx - images * (shear_rate * length), vy, vz)

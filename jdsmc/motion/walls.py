@@ -1,0 +1,115 @@
+"""What two walls give back: velocities of particles emitted by a bath behind each.
+
+Tahiri, Tij and Santos, "Monte Carlo simulation of a hard-sphere gas in the planar Fourier flow with
+a gravity field" (2000), section 2. A particle that hits a wall is absorbed and replaced by one with
+the density |v_z| φ(v), eq. (15), φ being a Maxwellian (type I, eq. 17) or the distribution of the
+BGK model under heat conduction (type II, eq. 18).
+
+Speeds away from the wall are sampled as w u(x), w = √(2T/m) of the wall and x = √(-ln p) for a
+uniform p: the Maxwellian has u(x) = x, the other one a table of u at equal steps of x.
+"""
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from .. import random
+from ..gases.scatter import sin_cos_turns
+from ..types import Key, Positions, Scalar
+
+LARGEST_X = 4.2
+"""√(-ln p) of the smallest p of 24 bits is 4.16."""
+TABLE = 512
+"""Steps of the table; doubling it moves no moment by more than 1e-5."""
+
+_LOG_SPEED = np.linspace(np.log(1e-4), np.log(2e3), 2048)
+"""Logarithms of u: the survival function is computed at these, from 1 down to below 1e-8."""
+_LOG_DEPTH = np.linspace(np.log(1e-8), np.log(1e4), 320)
+"""Logarithms of the integration variable of eq. (18): |1 - τ|/τ or |1 - τ|."""
+
+
+class Walls(eqx.Module):
+    """The walls at z = 0 and z = L: thermal speeds √(2T/m), and tables of u(x) or None."""
+
+    speed: Float[Array, "2"]
+    table: Float[Array, "2 steps"] | None
+
+    @staticmethod
+    def maxwell(cold_temperature: Scalar) -> "Walls":
+        """Type I walls at T_- and T_+ = T0."""
+        return Walls(jnp.stack([jnp.sqrt(cold_temperature), jnp.ones_like(cold_temperature)]), None)
+
+    @staticmethod
+    def bgk(cold_temperature: Scalar, length: Scalar) -> "Walls":
+        """Type II walls; `cold_temperature` is T_-/T_+, `length` is L in λ0."""
+        walls = Walls.maxwell(cold_temperature)
+        cold, hot = wall_gradients(cold_temperature, length)
+        return Walls(walls.speed, jnp.stack([speed_table(cold, True), speed_table(hot, False)]))
+
+    def emit(
+        self, key: Key, stream, at_top: Array, normal: Positions
+    ) -> tuple[Positions, Positions, Positions]:
+        """Velocities (x, y, z) of particles emitted upwards at z = 0 or downwards at z = L.
+
+        Random numbers come from `stream` of the key and the one after it.
+        """
+        first = random.bits(key, normal.shape, stream)
+        radius = jnp.sqrt(-jnp.log(random.unit_interval(first[0], normal.dtype)))
+        sine, cosine = sin_cos_turns(random.unit_interval(first[1], normal.dtype))
+        second, _ = random.bits(key, normal.shape, stream + 1)
+        x = jnp.sqrt(-jnp.log(random.unit_interval(second, normal.dtype)))
+        wall = at_top.astype(jnp.int32)
+        thermal = jnp.where(at_top, self.speed[1], self.speed[0])
+        away = thermal * (x if self.table is None else interpolate(self.table, wall, x))
+        tangential = thermal * radius
+        return tangential * cosine, tangential * sine, jnp.where(at_top, -away, away)
+
+
+def interpolate(table: Float[Array, "2 steps"], wall: Array, x: Positions) -> Positions:
+    """u(x), linear between the entries of the table of each particle's wall."""
+    steps = table.shape[1] - 1
+    place = x * (steps / LARGEST_X)
+    index = jnp.clip(place.astype(jnp.int32), 0, steps - 1)
+    flat = wall * (steps + 1) + index
+    low = table.ravel().at[flat].get(mode="promise_in_bounds")
+    high = table.ravel().at[flat + 1].get(mode="promise_in_bounds")
+    return low + (place - index.astype(x.dtype)) * (high - low)
+
+
+def wall_gradients(cold_temperature, length):
+    """ε_- and ε_+ of eq. (19), with T_+ = 1 and λ0 = 1/(√2 π n̄ σ²) = 1."""
+    root = jnp.sqrt(cold_temperature)
+    hot = (15.0 * np.pi**0.5 / 8.0) * (1.0 - root) / length
+    return hot / root, hot
+
+
+def flux_density(gradient: Scalar, cold: bool, speed):
+    """|u| φ(u) of eq. (18) up to a constant factor, for speeds u > 0 away from the wall.
+
+    With τ = 1/(1+y) at the cold wall (τ < 1) and τ = 1 + y at the hot one,
+    ∫dτ τ^{-3/2} exp(-|1-τ|/(εu) - u²/τ) = ∫dy (1+y)^{-1/2} exp(-y/((1+y)εu) - u²(1+y)), and
+    = ∫dy (1+y)^{-3/2} exp(-y/(εu) - u²/(1+y)); trapezoidal rule in ln y.
+    """
+    y = jnp.asarray(np.exp(_LOG_DEPTH), gradient.dtype)
+    depth = gradient * speed[..., None]
+    square = (speed * speed)[..., None]
+    if cold:
+        exponent = -y / ((1.0 + y) * depth) - square * (1.0 + y)
+        weight = y / jnp.sqrt(1.0 + y)
+    else:
+        exponent = -y / depth - square / (1.0 + y)
+        weight = y / (1.0 + y) ** 1.5
+    return jnp.sum(weight * jnp.exp(exponent), axis=-1) * (_LOG_DEPTH[1] - _LOG_DEPTH[0])
+
+
+def speed_table(gradient: Scalar, cold: bool) -> Float[Array, " steps"]:
+    """u at TABLE + 1 equal steps of x = √(-ln P), P being the probability of a larger u."""
+    speed = jnp.asarray(np.exp(_LOG_SPEED), gradient.dtype)
+    density = flux_density(gradient, cold, speed) * speed
+    pieces = 0.5 * (density[1:] + density[:-1])
+    above = jnp.cumsum(pieces[::-1])[::-1]
+    survival = jnp.append(above / above[0], 0.0)
+    x = jnp.sqrt(-jnp.log(jnp.maximum(survival, 1e-30)))
+    at = jnp.asarray(np.linspace(0.0, LARGEST_X, TABLE + 1), gradient.dtype)
+    return jnp.interp(at, x, speed).at[0].set(0.0)

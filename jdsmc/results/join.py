@@ -1,0 +1,35 @@
+"""Results of several gases side by side."""
+
+import xarray as xr
+
+from .result import Result
+
+
+def join_gases(results: dict[str, Result]) -> Result:
+    """One result with a dimension `gas` from results of the same sweep with different gases.
+
+    Series of different lengths are padded with NaN at the end.
+    """
+    gases = list(results)
+    trees = [r.to_xarray() for r in results.values()]
+    groups = {}
+    for group in ("/", "/series", "/distribution"):
+        parts = [t[group].to_dataset() for t in trees if group == "/" or group[1:] in t.children]
+        if len(parts) == len(trees):
+            groups[group] = _stack([part.reset_coords() for part in parts], gases)
+    if "/series" in groups:
+        groups["/series"] = groups["/series"].set_coords("time")
+    for name in ("stopped", "gas_model"):
+        each = {gas: r.attrs[name] for gas, r in results.items()}
+        same = len(set(each.values())) == 1
+        text = each[gases[0]] if same else "; ".join(f"{gas}: {v}" for gas, v in each.items())
+        groups["/"].attrs |= {name: text} | {f"{name}_{gas}": v for gas, v in each.items()}
+    return Result(xr.DataTree.from_dict(groups))
+
+
+def _stack(parts: list[xr.Dataset], gases: list[str]) -> xr.Dataset:
+    """Datasets side by side along `gas`; attributes that differ are left out."""
+    stacked = xr.concat(
+        parts, dim="gas", join="outer", data_vars="all", combine_attrs="drop_conflicts"
+    )
+    return stacked.assign_coords(gas=gases)

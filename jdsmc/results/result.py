@@ -1,0 +1,219 @@
+"""Labelled results: steady values, time series and velocity distributions, with error bars."""
+
+import json
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from .. import views
+from ..estimate import Estimate
+
+
+class Result:
+    """What a run measured.
+
+    `result["shear_stress"]` is the steady mean and its standard error; `result.series` and
+    `result.distribution` are xarray Datasets; `result.to_xarray()` is everything in one tree, as
+    in the file that `result.save(path)` writes. Names and units: docs/observables.md.
+    """
+
+    def __init__(self, tree: xr.DataTree):
+        self._tree = tree
+
+    def __getitem__(self, name: str) -> Estimate:
+        """Steady mean and error of an observable; KeyError names what there is."""
+        steady = self.steady
+        if name not in self:
+            if not self.is_steady:
+                raise KeyError(
+                    f"no steady values: {self.attrs.get('stopped', 'the run was not steady')}. "
+                    "Time series are in result.series."
+                )
+            raise KeyError(f"no observable {name!r}; there are {', '.join(self)}.")
+        value, error = steady[name].values, steady[f"{name}_error"].values
+        left_out = None
+        if "left_out" in self._tree.children:
+            values = self._tree["left_out"].to_dataset()[name].transpose("realization", ...).values
+            left_out = {(self.attrs["run"], self.attrs.get("point", "")): values}
+        return Estimate(*(x if x.ndim else float(x) for x in (value, error)), left_out)
+
+    def __contains__(self, name: object) -> bool:
+        steady = self.steady
+        return name in steady.data_vars and f"{name}_error" in steady.data_vars
+
+    def __iter__(self) -> Iterator[str]:
+        """Names of what has a steady value."""
+        return (str(name) for name in self.steady.data_vars if name in self)
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+    @property
+    def steady(self) -> xr.Dataset:
+        """Steady values and errors."""
+        return self._tree.to_dataset()
+
+    @property
+    def is_steady(self) -> bool:
+        """True if there are steady values."""
+        return len(self) > 0
+
+    @property
+    def attrs(self) -> dict:
+        """Parameters, options, seed, versions and how the run ended."""
+        return dict(self._tree.attrs)
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """The swept dimensions."""
+        return tuple(str(name) for name in self._tree.attrs.get("swept", "").split() if name)
+
+    @property
+    def series(self) -> xr.Dataset:
+        """Observables against time, averaged over realizations."""
+        return self._tree["series"].to_dataset()
+
+    @property
+    def distribution(self) -> xr.Dataset:
+        """Steady velocity distributions against C = V/√(2T/m)."""
+        if "distribution" not in self._tree.children:
+            why = "the run ended before it was steady" if not self.is_steady else "none was sampled"
+            raise KeyError(f"no velocity distributions: {why}.")
+        return self._tree["distribution"].to_dataset()
+
+    def at(self, **point) -> "Result":
+        """The result at one value of swept numbers, e.g. `result.at(restitution=0.7)`.
+
+        Raises KeyError for a number that is not swept or a value that was not run.
+        """
+        chosen = {name: self._index(name, value) for name, value in point.items()}
+        groups = {}
+        for path in ("/", *(f"/{name}" for name in self._tree.children)):
+            data = self._tree[path].to_dataset()
+            groups[path] = data.isel({n: k for n, k in chosen.items() if n in data.dims})
+            groups[path] = groups[path].drop_vars([n for n in chosen if n in groups[path].coords])
+        attrs = self.attrs
+        for name, index in chosen.items():
+            values = self.steady[name].values
+            label = f"{name}={values[index]}"
+            attrs["point"] = " ".join(filter(None, [attrs.get("point", ""), label]))
+            if f"parameter_{name}" in attrs:
+                attrs[f"parameter_{name}"] = float(values[index])
+        attrs["swept"] = " ".join(name for name in self.dims if name not in chosen)
+        attrs.pop("specification", None)  # that of the whole sweep
+        groups["/"].attrs = attrs
+        return Result(xr.DataTree.from_dict(groups))
+
+    def _index(self, name: str, value) -> int:
+        if name not in self.dims:
+            swept = ", ".join(self.dims) or "nothing"
+            raise KeyError(f"{name} was not swept; swept: {swept}.")
+        values = self.steady[name].values
+        if values.dtype.kind == "f":
+            found = np.flatnonzero(np.isclose(values, value, rtol=1e-6, atol=1e-12))
+        else:
+            found = np.flatnonzero(values == value)
+        if not len(found):
+            raise KeyError(
+                f"{name} = {value} was not run; there are {', '.join(map(str, values))}."
+            )
+        return int(found[0])
+
+    def to_xarray(self) -> xr.DataTree:
+        """Everything: steady values at the root, groups `series`, `distribution`, ..."""
+        return self._tree
+
+    def scene(self, *classes: type):
+        """The scene that made this result, built again.
+
+        Its classes must have been imported, or be passed in: a file never causes an import. Raises
+        ValueError if one of them is not there.
+        """
+        if "specification" not in self._tree.attrs:
+            raise ValueError("only the whole of a sweep knows its scene; this is a part or a join.")
+        return _built(json.loads(self._tree.attrs["specification"]), classes)
+
+    def save(self, path: str | Path, overwrite: bool = False) -> Path:
+        """Write a NetCDF4 (HDF5) file; raises FileExistsError rather than replace one."""
+        path = check_writable(path, overwrite)
+        self._tree.to_netcdf(path, engine="h5netcdf", mode="w")
+        return path
+
+    def plot(self, path: str | Path | None = None):
+        """Draw the result; returns the matplotlib figure, saved to `path` if given."""
+        figure = views.draw(self)
+        if path is not None:
+            figure.savefig(path, dpi=130)
+        return figure
+
+    def table(self) -> str:
+        """Steady values with errors, beside theory where there is one."""
+        return views.table(self)
+
+    def __repr__(self) -> str:
+        return f"<jdsmc.Result {self.attrs.get('scene', '')}>\n{self.table()}"
+
+
+def _built(data, classes: tuple[type, ...]):
+    """A scene or gas from plain data."""
+    if isinstance(data, list):
+        return (
+            np.asarray(data, dtype=float) if _numeric(data) else [_built(x, classes) for x in data]
+        )
+    if not (isinstance(data, dict) and set(data) == {"class", "fields"}):
+        return data
+    module, _, name = data["class"].partition(":")
+    known = {f"{one.__module__}:{one.__qualname__}": one for one in classes}
+    known |= {one.__qualname__: one for one in classes}
+    found = known.get(data["class"]) or known.get(name)
+    if found is None:
+        found = sys.modules.get(module)
+        for part in name.split("."):
+            found = vars(found).get(part) if found is not None else None
+    if not isinstance(found, type):
+        raise ValueError(f"the class {name} of {module} is not imported; pass it: scene({name}).")
+    return found(**{field: _built(value, classes) for field, value in data["fields"].items()})
+
+
+def _numeric(data: list) -> bool:
+    return all(isinstance(x, int | float) or (isinstance(x, list) and _numeric(x)) for x in data)
+
+
+def check_writable(path: str | Path, overwrite: bool = False) -> Path:
+    """The path, if a file may be created there; a clear error otherwise, before any work."""
+    path = Path(path)
+    if path.exists() and not overwrite:
+        raise FileExistsError(f"{path} exists; choose another name or delete it first.")
+    if not path.parent.is_dir():
+        raise FileNotFoundError(f"the folder {path.parent} of the output file does not exist.")
+    try:
+        existed = path.exists()
+        with path.open("ab"):
+            pass
+        if not existed:
+            path.unlink()
+    except OSError as error:
+        raise PermissionError(f"cannot write {path}: {error.strerror}.") from None
+    return path
+
+
+def load(path: str | Path) -> Result:
+    """Read a file written by `Result.save` or the command line.
+
+    Raises FileNotFoundError, or ValueError if it is no jdsmc file.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise FileNotFoundError(f"there is no file {path}.")
+    try:
+        tree = xr.open_datatree(path, engine="h5netcdf")
+    except (OSError, ValueError):
+        raise ValueError(f"{path} is not an HDF5 file written by jdsmc.") from None
+    with tree:
+        tree = tree.load()
+    if "jdsmc_version" not in tree.attrs:
+        raise ValueError(f"{path} was not written by jdsmc.")
+    return Result(tree)

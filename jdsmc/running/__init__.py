@@ -1,0 +1,1 @@
+"""One way through: any scene, advanced, watched, assembled."""

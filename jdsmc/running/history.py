@@ -1,0 +1,155 @@
+"""Records of a run on the host: times, collisions, averages over any window."""
+
+import numpy as np
+
+from ..scenarios.base import AbstractScene
+from .batch import point_of
+
+CLOCKS = ("elapsed", "accepted", "energy_lost", "time", "collisions", "plain_time")
+
+
+class History:
+    """Everything measured so far, arrays (points, realizations, records, ...).
+
+    Arguments: the scene of each point; particles of a realization; time steps of a record.
+    """
+
+    def __init__(self, scenes: list[AbstractScene], n_particles: int, steps_per_record: int):
+        self.scenes = scenes
+        self.n_particles = n_particles
+        self.steps_per_record = steps_per_record
+        self.total_excess = 0.0
+        self.length = 0  # records so far
+        self._samples: list = []
+        self._columns: dict[str, np.ndarray] = {}
+        self._totals: dict[str, np.ndarray] = {}
+
+    def append(self, record, sample) -> None:
+        """Add the records and the sample of one chunk."""
+        tally = record.tally
+        each = [scene.averages(point_of(record, p)) for p, scene in enumerate(self.scenes)]
+        new = {name: np.stack([averages[name] for averages in each]) for name in each[0]}
+        new |= {
+            "elapsed": record.elapsed,
+            "accepted": tally.accepted / self.n_particles,
+            "energy_lost": tally.energy_lost / self.n_particles,
+        }
+        new["time"] = self._continued("time", new.get("plain_time", new["elapsed"]))
+        new["collisions"] = self._continued("collisions", new["accepted"])
+        for name, values in new.items():
+            self._store(name, values)
+        self.length += record.elapsed.shape[2]
+        self._samples.append(sample)
+        self.total_excess += float(np.sum(tally.excess))
+
+    def _continued(self, name: str, increments: np.ndarray) -> np.ndarray:
+        """Running total before each record; the total so far is kept from chunk to chunk."""
+        start = self._totals.get(name, np.zeros(increments.shape[:2]))
+        total = start[..., None] + np.cumsum(increments, axis=2)
+        self._totals[name] = total[..., -1]
+        return total - increments
+
+    def _store(self, name: str, values: np.ndarray) -> None:
+        """Write into a column whose capacity doubles, so that long runs cost in proportion."""
+        first, last = self.length, self.length + values.shape[2]
+        column = self._columns.get(
+            name, np.empty((*values.shape[:2], 0, *values.shape[3:]), values.dtype)
+        )
+        if last > column.shape[2]:
+            room = np.empty((*values.shape[:2], 2 * last, *values.shape[3:]), values.dtype)
+            room[:, :, :first] = column[:, :, :first]
+            self._columns[name] = column = room
+        column[:, :, first:last] = values
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self._columns[name][:, :, : self.length]
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the averages over particles."""
+        return [name for name in self._columns if name not in CLOCKS]
+
+    def point(
+        self, point: int, first: int | np.integer, last: int | np.integer
+    ) -> dict[str, np.ndarray]:
+        """Averages over a window of records of one point: arrays (realizations, ...).
+
+        Averages over particles are weighted with the time their record stands for; `accepted` and
+        `energy_lost` become rates per particle and time.
+        """
+        window = slice(first, last)
+        elapsed = self["elapsed"][point, :, window]
+        series = {name: self[name][point, :, window] for name in self.names}
+        means = self.scenes[point].window(series, elapsed)
+        for name in ("accepted", "energy_lost"):
+            means[name] = np.sum(self[name][point, :, window], axis=1) / np.sum(elapsed, axis=1)
+        means["time_step"] = np.mean(elapsed, axis=1) / self.steps_per_record
+        return means
+
+    def samples(
+        self, point: int, first: int | np.integer, records_per_chunk: int
+    ) -> dict[str, np.ndarray]:
+        """Chunk samples of one point taken after record `first`: means (realizations, bins)."""
+        kept = self._samples[-(-first // records_per_chunk) :]
+        if not kept or kept[0] is None:
+            return {}
+        names = kept[0].__dataclass_fields__
+        return {n: np.mean([getattr(s, n)[point] for s in kept], axis=0) for n in names}
+
+    def mean_collisions(self) -> np.ndarray:
+        """Accepted collisions per particle so far, (points,)."""
+        return np.mean(self._totals["collisions"], axis=1)
+
+    @property
+    def total_accepted(self) -> float:
+        """Accepted collisions of all gases together."""
+        return float(np.sum(self._totals["collisions"])) * self.n_particles
+
+    def mean_time(self) -> np.ndarray:
+        """Time so far (τ0), (points,)."""
+        return np.mean(self._totals["time"], axis=1)
+
+    def record_at_collisions(self, point: int, collisions: float) -> int:
+        """First record at which a point has made that many collisions per particle."""
+        return int(np.searchsorted(np.mean(self["collisions"][point], axis=0), collisions))
+
+    def on_common_times(self, point: int) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        """Averages of every realization of one point at the mean times of the records.
+
+        Realizations have their own clocks (their time step follows their own temperature); each is
+        interpolated linearly in time to the mean clock, as far as all have come.
+        Returns: times (records,) and averages (realizations, records, ...).
+        """
+        time = self["time"][point]
+        common = np.mean(time, axis=0)
+        common = common[common <= np.min(time[:, -1])]
+        series = {name: self[name][point] for name in self.names}
+        elapsed = self["elapsed"][point]
+        series["collisions"] = self["collisions"][point]
+        for name in ("accepted", "energy_lost"):
+            series[name] = self[name][point] / elapsed
+        series["time_step"] = elapsed / self.steps_per_record
+        if "instant_rate" in series:
+            series["local_collisions"] = _integral(time, series["instant_rate"])
+        elif "local_rate" in series:
+            steps = series["local_rate"] * elapsed
+            series["local_collisions"] = np.cumsum(steps, axis=1) - steps
+        return common, {
+            name: np.stack([_interpolate(common, *one) for one in zip(time, values, strict=True)])
+            for name, values in series.items()
+        }
+
+
+def _integral(time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Trapezoidal integral from the first record, along the last axis."""
+    pieces = 0.5 * (values[..., 1:] + values[..., :-1]) * np.diff(time, axis=-1)
+    return np.concatenate([np.zeros_like(values[..., :1]), np.cumsum(pieces, axis=-1)], axis=-1)
+
+
+def _interpolate(at: np.ndarray, time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Linear interpolation along the first axis of the values."""
+    if values.ndim == 1:
+        return np.interp(at, time, values)
+    flat = values.reshape(len(values), -1)
+    columns = np.stack([np.interp(at, time, column) for column in flat.T], axis=-1)
+    return columns.reshape(len(at), *values.shape[1:])

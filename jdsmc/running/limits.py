@@ -1,0 +1,90 @@
+"""When a run stops: what was asked for, checked against the scene."""
+
+import numpy as np
+
+from .. import check
+from ..errors import NotSteadyError
+from ..scenarios.base import AbstractScene
+from .steady import SteadyTracker
+
+
+class Limits:
+    """A time, a number of collisions, or a precision and a budget.
+
+    Arguments: the scene of each point; the rest as of `run`. `records` ends a run after a number
+    of them, whatever the precision.
+    """
+
+    def __init__(
+        self,
+        scenes: list[AbstractScene],
+        *,
+        duration=None,
+        collisions=None,
+        observable=None,
+        rtol=None,
+        budget=5_000.0,
+        records=None,
+    ):
+        scene = scenes[0]
+        if duration is not None and collisions is not None:
+            raise ValueError("give duration or collisions, not both.")
+        for name, value in (("duration", duration), ("collisions", collisions), ("budget", budget)):
+            if value is not None:
+                check.scalar(name, value, 0.0, np.inf, high_included=False)
+        if rtol is not None:
+            check.scalar("rtol", rtol, 0.0, 1.0)
+        self.duration, self.collisions, self.records = duration, collisions, records
+        self.rtol = float(scene.default_rtol if rtol is None else rtol)
+        self.budget = float(budget)
+        self.observables = _names(scene, observable)
+        self.fixed = duration is not None or collisions is not None
+        self.approaches = [scene.approach() for scene in scenes]
+        without = [scene for scene in scenes if not scene.has_steady_state()]
+        self.can_be_steady = not without
+        if not self.fixed and without:
+            raise ValueError(
+                f"{type(scene).__name__} has no steady state with these parameters: "
+                f"{without[0].no_steady_state()}."
+            )
+
+    @property
+    def named(self) -> str:
+        """The observables whose precision is asked."""
+        return ", ".join(self.observables)
+
+    def check_warm_up(self) -> None:
+        """Raise NotSteadyError if the warm-up alone takes more than the budget."""
+        if self.fixed:
+            return
+        least = float(np.max(SteadyTracker(self.approaches, ()).least))
+        if least >= self.budget:
+            raise NotSteadyError(
+                f"budget = {self.budget:g} collisions per particle is too small: the warm-up takes "
+                f"{least:.0f}, {self.slowest()}. Raise budget to {4 * least:.2g} or so, or give "
+                "duration."
+            )
+
+    def slowest(self) -> str:
+        """A clause that tells the largest of the slow times."""
+        longest = max(a.collisions for a in self.approaches)
+        known = all(a.certain for a in self.approaches)
+        article = "the" if known else "a"
+        return f"{article} slow relaxation taking {longest:.3g} collisions per particle"
+
+    def attributes(self) -> dict:
+        """What was asked for, as attributes of the result."""
+        asked = {"observable": self.named, "rtol": self.rtol, "budget": self.budget}
+        times = {"duration": self.duration, "collisions": self.collisions}
+        return asked | {name: float(t) for name, t in times.items() if t is not None}
+
+
+def _names(scene: AbstractScene, observable) -> tuple[str, ...]:
+    """The observables that end a run; ValueError for one that the scene does not report."""
+    known = [one.name for one in scene.reports]
+    if observable is None:
+        return scene.ends or (known[0],)
+    names = (observable,) if isinstance(observable, str) else tuple(observable)
+    for name in names:
+        check.one_of("observable", name, known)
+    return names

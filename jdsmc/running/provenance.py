@@ -1,0 +1,102 @@
+"""What a file tells of the run that made it, so that the run can be made again."""
+
+import dataclasses
+import hashlib
+import json
+import platform
+import subprocess
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+import equinox as eqx
+import jax
+import numpy as np
+
+from .. import sweep
+from ..scenarios.base import AbstractScene
+from ..scenarios.options import Options
+
+
+def provenance(scene: AbstractScene, options: Options) -> dict:
+    """Parameters, switches, options, versions and commit, as attributes of a file."""
+    numbers = {
+        f"parameter_{name}": value if value.ndim else float(value)
+        for name, value in sweep.parameters(scene).items()
+    }
+    switches = {
+        f"option_{path.removeprefix('gas.')}": value
+        if isinstance(value, int | float)
+        else str(value)
+        for path, value in sweep.statics(scene).items()
+    }
+    return {
+        "jdsmc_version": version(),
+        "jax_version": jax.__version__,
+        "numpy_version": np.__version__,
+        "equinox_version": eqx.__version__,
+        "python_version": platform.python_version(),
+        "commit": commit(),
+        "backend": jax.default_backend(),
+        "scene": type(scene).__name__,
+        "gas_model": type(scene.gas).__name__,
+        "specification": json.dumps(specification(scene)),
+        **numbers,
+        **switches,
+        "n_particles": options.n_particles,
+        "time_step": options.time_step,
+        "steps_per_record": options.steps,
+        "splitting": options.splitting,
+        "dtype": str(options.dtype),
+    }
+
+
+def specification(module: Any) -> Any:
+    """A scene or gas as plain data: class and fields, enough to build it again."""
+    if dataclasses.is_dataclass(module) and not isinstance(module, type):
+        fields = [f for f in dataclasses.fields(module) if f.init]
+        return {
+            "class": f"{type(module).__module__}:{type(module).__qualname__}",
+            "fields": {f.name: specification(getattr(module, f.name)) for f in fields},
+        }
+    if isinstance(module, np.ndarray | np.generic | jax.Array):
+        return np.asarray(module).tolist()
+    if isinstance(module, tuple | list):
+        return [specification(one) for one in module]
+    return module
+
+
+def run_name(scene: AbstractScene, options: Options, seed: int, records: int) -> str:
+    """A name that two results share only if they are the same run, as far as it came."""
+    text = json.dumps([specification(scene), repr(options), seed, records])
+    return hashlib.blake2b(text.encode(), digest_size=12).hexdigest()
+
+
+def version() -> str:
+    """Of the installed package; "unknown" in a bare checkout."""
+    try:
+        return metadata.version("jdsmc")
+    except metadata.PackageNotFoundError:
+        return "unknown"
+
+
+def commit() -> str:
+    """The git commit of the package's own checkout, "+" if changed, or "unknown"."""
+    root = Path(__file__).parents[2]
+    if not (root / ".git").exists():  # installed, perhaps below a repository of the user's
+        return "unknown"
+
+    def git(*arguments):
+        return subprocess.run(
+            ["git", f"--git-dir={root / '.git'}", f"--work-tree={root}", *arguments],
+            capture_output=True,
+            text=True,
+            check=True,
+            timeout=5,
+        ).stdout.strip()
+
+    try:
+        changed = git("status", "--porcelain", "--", str(root / "jdsmc"))
+        return git("rev-parse", "HEAD") + ("+" if changed else "")
+    except (OSError, subprocess.SubprocessError):
+        return "unknown"

@@ -1,0 +1,152 @@
+"""Run a scene: until steady, then until precise; or for a given time."""
+
+from typing import Literal
+
+from .. import check, sweep
+from ..errors import FaultError, NotSteadyError
+from ..results.result import Result
+from ..scenarios.base import AbstractScene
+from ..scenarios.options import STEPS_PER_RECORD, TIME_STEP, Options
+from .assemble import assemble
+from .limits import Limits
+from .progress import interruptible, progress_bar
+from .session import Session
+
+LEAST_REALIZATIONS = 8
+"""With four, Student's t decides nothing: a drift of three errors has a significance of 0.06."""
+
+
+def run(
+    scene: AbstractScene,
+    *,
+    n_particles: int | None = None,
+    n_realizations: int = 8,
+    seed: int = 0,
+    duration: float | None = None,
+    collisions: float | None = None,
+    observable: str | tuple[str, ...] | None = None,
+    rtol: float | None = None,
+    budget: float = 5_000.0,
+    time_step: float = TIME_STEP,
+    splitting: Literal["strang", "lie"] = "strang",
+    dtype: Literal["float32", "float64"] = "float32",
+    steps_per_record: int = STEPS_PER_RECORD,
+    progress: bool = True,
+) -> Result:
+    """Simulate a scene and return labelled results with error bars.
+
+    Without `duration` and `collisions` the run goes on until the gas is steady: for several times
+    as long as its slowest relaxation takes, and until nothing that is printed can be off by a good
+    part of its error; then until the standard error of `observable` is `rtol` of its value at every
+    point of the sweep, or until the budget ends; `result.attrs["stopped"]` says which.
+
+    Arguments:
+        scene: a scene, ours or your own; one-dimensional arrays among its numbers are swept (their
+            product, in one compiled program).
+        n_particles: particles of one realization, at least 64, in a homogeneous gas a number with
+            a divisor from 64 to 1024; by default what the scene says, mostly 20000.
+        n_realizations: independent realizations, at least 8; all error bars come from them.
+        seed: of all random numbers; the same seed gives the same result.
+        duration: time to simulate (τ0).
+        collisions: time to simulate, in accepted collisions per particle.
+        observable, rtol: the precision asked for; by default of the scene's main observables, and
+            0.001 for most scenes.
+        budget: most collisions per particle to spend.
+        time_step: largest time step in (0, 1], as a fraction of τ(T) and of the scene's own times
+            (1/shear_rate) in homogeneous gases and sheared slabs, of τ0 in a Fourier flow; it is
+            shortened so that no pair is likelier to collide than the pair selection allows.
+        splitting: "strang" (second order) or "lie" (first order, as in the papers).
+        dtype: "float32", or "float64" with JAX's x64 mode enabled.
+        steps_per_record: time steps between two measurements.
+        progress: show a progress bar.
+    Raises:
+        ValueError, TypeError: bad input, before anything is computed.
+        NotSteadyError: no steady state within the budget; before the run, with `.result` None, if
+            the warm-up alone needs more.
+        FaultError: lost collisions or numbers that are not finite. Both have `.result`, what was
+            measured until then, or None.
+    Ctrl-C ends the run after the present chunk and returns what was measured.
+    """
+    scenes = scenes_of(scene)
+    options = options_of(scenes, n_particles, time_step, splitting, dtype, steps_per_record)
+    limits = Limits(
+        scenes,
+        duration=duration,
+        collisions=collisions,
+        observable=observable,
+        rtol=rtol,
+        budget=budget,
+    )
+    return simulate(
+        scene, scenes, options, limits, n_realizations=n_realizations, seed=seed, progress=progress
+    )
+
+
+def scenes_of(scene) -> list[AbstractScene]:
+    """The scene at every point of its sweep; TypeError for what is no scene."""
+    if isinstance(scene, type) and issubclass(scene, AbstractScene):
+        raise TypeError(
+            f"scene is the class {scene.__name__}; make one: {scene.__name__}(gas, ...)."
+        )
+    if not isinstance(scene, AbstractScene):
+        raise TypeError(f"scene must be one of jdsmc.scenarios or derive from them, got {scene!r}.")
+    return sweep.points(scene)[0]
+
+
+def options_of(scenes, n_particles, time_step, splitting, dtype, steps_per_record) -> Options:
+    """The checked options, as all points of a sweep need them."""
+    scene = scenes[0]
+    options = Options.checked(
+        scene.default_particles() if n_particles is None else n_particles,
+        *(time_step, splitting, dtype, steps_per_record),
+        samples=scene.samples_per_record,
+        in_space=scene.in_space,
+    )
+    fitted = [one.fit_options(options) for one in scenes]
+    if any(other != fitted[0] for other in fitted):
+        raise ValueError(
+            f"the points of this sweep of {type(scene).__name__} need different sizes of arrays; "
+            "run them one by one."
+        )
+    return fitted[0]
+
+
+def simulate(
+    scene: AbstractScene,
+    scenes: list[AbstractScene],
+    options: Options,
+    limits: Limits,
+    *,
+    n_realizations: int,
+    seed: int,
+    progress: bool,
+) -> Result:
+    """Advance until a limit is met, and assemble what was measured; see `run`."""
+    n_realizations = check.whole("n_realizations", n_realizations, LEAST_REALIZATIONS)
+    seed = check.whole("seed", seed, 0)
+    limits.check_warm_up()
+    session = Session(scenes, n_realizations, seed, options, limits)
+    attrs = {"seed": seed, "n_realizations": n_realizations, **limits.attributes()}
+
+    def result(stopped: str) -> Result:
+        tracker = session.tracker if limits.can_be_steady and session.is_settled() else None
+        return assemble(scene, session.history, tracker, session, attrs | {"stopped": stopped})
+
+    try:
+        with interruptible() as interrupted, progress_bar(progress) as bar:
+            stopped = ""
+            while not stopped:
+                session.advance()
+                stopped = session.ending()
+                bar.show(session)
+                if interrupted.is_set() and not stopped:
+                    stopped = f"interrupted after {session.spent:.1f} collisions per particle"
+    except FaultError as error:
+        if session.history.length:
+            error.result = result(f"fault: {error}")
+        raise
+    if session.failed:
+        error = NotSteadyError(stopped)
+        error.result = result(stopped)
+        raise error
+    return result(stopped)

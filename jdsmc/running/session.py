@@ -1,0 +1,134 @@
+"""A run under way, of any scene: engine, history, steady-state tracker, precision."""
+
+
+import numpy as np
+
+from ..scenarios.options import Options
+from . import faults
+from .engine import Engine
+from .estimates import steady_changes, steady_estimates
+from .history import History
+from .host_engine import HostEngine
+from .limits import Limits
+from .steady import SteadyTracker
+
+BLOCKS = 4
+"""Blocks of a measurement for the second estimate of its precision."""
+
+
+class Session:
+    """What a run has come to. `advance` makes one chunk, `ending` says why to stop.
+
+    Arguments: the scene of each point, realizations of each, seed, options, limits.
+    """
+
+    def __init__(self, scenes, n_realizations: int, seed: int, options: Options, limits: Limits):
+        kind = Engine if scenes[0].traced else HostEngine
+        self.options, self.limits = options, limits
+        self.engine = kind(scenes, n_realizations, seed, options)
+        self.history = History(scenes, options.n_particles, options.steps)
+        self.tracker = SteadyTracker(limits.approaches, scenes[0].monitored, steady_changes)
+        self.precision = np.inf
+        self.failed = self._settled = False
+        self._asked_at = -1
+        self._next_look = 0.0
+
+    def advance(self) -> None:
+        """One chunk, its faults checked, and the steady state looked for."""
+        record, sample = self.engine.advance()
+        faults.check_record(self.history, record)
+        self.history.append(record, sample)
+        faults.check_collisions(self.history, record)
+        if self.limits.can_be_steady:
+            self.tracker.update(self.history)
+
+    @property
+    def spent(self) -> float:
+        """Collisions per particle of the point that is least far."""
+        return float(np.min(self.history.mean_collisions())) if self.history.length else 0.0
+
+    def ending(self) -> str:
+        """Why to stop now, or an empty string."""
+        limits = self.limits
+        if limits.fixed:
+            return "the asked time was simulated" if self.progress() >= 1.0 else ""
+        if self.tracker.all_measuring and self.spent >= self._next_look:
+            self._next_look = 1.05 * self.spent
+            if self._precise() and self.is_settled() and self._precise():
+                return f"{limits.named} is known to {self.precision:.2g} (asked {limits.rtol:g})"
+        if limits.records is not None and self.history.length >= limits.records:
+            self._look()
+            return (
+                f"{limits.records} records were made: {limits.named} is known to "
+                f"{self.precision:.2g}"
+            )
+        return self._budget_ended() if self.spent >= limits.budget else ""
+
+    def _budget_ended(self) -> str:
+        limits = self.limits
+        if self.is_settled():
+            self._look()
+        else:
+            self.precision = np.inf
+        if np.isfinite(self.precision):
+            return (
+                f"the budget of {limits.budget:g} collisions per particle ended: {limits.named} is "
+                f"known to {self.precision:.2g}, asked {limits.rtol:g}"
+            )
+        self.failed = True
+        return (
+            f"no steady state within {limits.budget:g} collisions per particle: what is measured "
+            f"still changes, or may change by more than its error, {limits.slowest()}. Raise "
+            "budget, start nearer to the steady state, or give duration."
+        )
+
+    def is_settled(self) -> bool:
+        """True if what is measured may be printed as steady; asked once for each length."""
+        if self._asked_at != self.history.length:
+            self._asked_at = self.history.length
+            self._settled = self.tracker.settled(self.history)
+        return self._settled
+
+    def _precise(self) -> bool:
+        """Look, and tell if it is enough; a start that was moved on has less to show."""
+        self._look()
+        return self.precision <= self.limits.rtol
+
+    def _look(self) -> None:
+        """Relative error of the observables at the worst point."""
+        if self.tracker.all_measuring:
+            points = range(len(self.tracker.start))
+            self.precision = max(self._relative_error(point) for point in points)
+
+    def _relative_error(self, point: int) -> float:
+        """The larger of two estimates: from realizations, and from blocks of them.
+
+        The first alone has few degrees of freedom, and a run that stops when it happens to be
+        small would report error bars that are too small. The second has more of them, but takes
+        blocks as independent, so it is used for this decision only.
+        """
+        first, last = self.tracker.start[point], self.history.length
+        value, error, _ = steady_estimates(self.history, point, first)
+        block_error = error
+        if self.limits.records is None:
+            if last - first < 2 * BLOCKS:
+                return np.inf
+            edges = np.linspace(first, last, BLOCKS + 1).astype(int)
+            _, block_error, _ = steady_estimates(self.history, point, edges)
+        return max(
+            float(np.max(np.maximum(error[name], block_error[name]) / np.abs(value[name])))
+            for name in self.limits.observables
+        )
+
+    def progress(self) -> float:
+        """Share of the work done, as far as it can be known."""
+        limits = self.limits
+        if limits.duration is not None:
+            return min(1.0, float(np.min(self.history.mean_time())) / limits.duration)
+        if limits.collisions is not None:
+            return min(1.0, self.spent / limits.collisions)
+        done = self.spent / limits.budget
+        if limits.records is not None:
+            done = self.history.length / limits.records
+        precise = (limits.rtol / self.precision) ** 2 if np.isfinite(self.precision) else 0.0
+        return min(1.0, max(precise, done))

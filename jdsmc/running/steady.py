@@ -1,0 +1,195 @@
+"""When a gas is steady: after a number of its slow times, and without a drift that shows.
+
+A test for drift can only see what exceeds the noise, so it is never asked alone. The scene's slow
+time (`approach.Approach`) tells how much of any change seen between an early and a late window is
+still to come; this and twice the uncertainty of the change itself must be small against the
+error that is printed, for each observable.
+"""
+
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from ..scenarios.approach import Approach
+from ..stats import drift_significance, variogram_ratio
+from .history import History
+
+FIRST_TEST = 10.0
+"""Collisions per particle before the first test."""
+
+GROWTH = 1.25
+"""Tests are made when the time has grown by this factor, so that few are made by chance."""
+
+ACCEPT, REJECT = 0.02, 0.001
+"""Significances: a warm-up ends only without a hint of drift; a measurement is cut on evidence."""
+
+SAFETY = 1.2
+"""Slow times are taken this much longer than the kinetic model says."""
+
+LEAST = 3.0
+"""Slow times of a warm-up from a distance of 1: realizations, which start alike, have then the
+scatter that makes their error bars."""
+
+TOLERANCE = 0.3
+"""Largest bias, as a share of the standard error."""
+
+BLOCKS = 16
+"""Blocks of a measurement whose correlation is looked at where the slow time is not known."""
+
+CORRELATED = 1.6
+"""Largest variogram over four blocks relative to one: it is 1 if the slow time is short, 1.4 for
+20 of them in the whole, 5.5 for a random walk; the estimate for 8 realizations scatters by 0.3."""
+
+Drift = Callable[[History, int, int, int], tuple[dict, dict, dict]]
+"""(history, point, early, start) -> change of the observables from the records [early, start) to
+those from start on, its standard error, and that of the observables themselves."""
+
+
+class SteadyTracker:
+    """Finds, for each point of a sweep, the record from which it is steady.
+
+    Arguments: the slow time of each point; names of the averages tested for drift; `drift`, how
+    the observables differ between two windows (None: not asked).
+
+    Known slow time: measuring starts after LEAST of them, and more from afar. Unknown: the last
+    half of the run so far is measured once it shows no drift against the quarter before it and
+    no correlation over a sixteenth of it; that sixteenth then is the slow time. From then on the
+    first quarter of the measurement is compared with the rest whenever it has grown by a quarter,
+    and dropped if it differs. `settled` has the last word.
+    """
+
+    def __init__(
+        self,
+        approaches: Sequence[Approach],
+        monitored: tuple[str, ...],
+        drift: Drift | None = None,
+    ):
+        self.monitored = monitored
+        self.start = np.full(len(approaches), -1)
+        self.certain = np.array([a.certain for a in approaches])
+        self.slow_time = SAFETY * np.array([a.collisions for a in approaches])
+        distance = np.array([a.distance for a in approaches])
+        needed = np.maximum(FIRST_TEST, self.slow_time * (LEAST + distance))
+        self.least = np.where(self.certain, needed, np.maximum(4.0 * FIRST_TEST, 2.0 * needed))
+        self._drift = drift
+        self._next_test = self.least.copy()
+
+    def update(self, history: History) -> None:
+        """Test every point that is due."""
+        collisions = history.mean_collisions()
+        for point in range(len(self.start)):
+            if collisions[point] < self._next_test[point]:
+                continue
+            if self.start[point] < 0:
+                self._end_warm_up(history, point, collisions[point])
+            else:
+                self.confirm(history, point)
+                self._next_test[point] = self._grown(history, point, collisions[point])
+
+    def _end_warm_up(self, history: History, point: int, collisions: float) -> None:
+        self._next_test[point] = GROWTH * collisions
+        if self.certain[point]:
+            self.start[point] = history.length
+            self._next_test[point] = collisions + FIRST_TEST
+            return
+        quarter, half = (history.record_at_collisions(point, x * collisions) for x in (0.25, 0.5))
+        if not 0 < quarter < half or history.length - half < BLOCKS:  # records too long to tell
+            return
+        drift = self._significance(history, point, quarter, half, history.length)
+        if drift > ACCEPT and self._decorrelated(history, point, half):
+            self.start[point] = half
+            self.slow_time[point] = 0.5 * collisions / BLOCKS
+
+    def _grown(self, history: History, point: int, collisions: float) -> float:
+        began = self._collisions_at(history, point, self.start[point])
+        return float(began + GROWTH * max(collisions - began, FIRST_TEST))
+
+    @staticmethod
+    def _collisions_at(history: History, point: int, record: int) -> float:
+        return float(np.mean(history["collisions"][point, :, min(record, history.length - 1)]))
+
+    def confirm(self, history: History, point: int) -> bool:
+        """True if the measurement shows no drift; otherwise its first quarter is dropped."""
+        first, last = int(self.start[point]), history.length
+        quarter = first + (last - first) // 4
+        if quarter - first < 2:
+            return False
+        if self._significance(history, point, first, quarter, last) > REJECT:
+            return True
+        self.start[point] = quarter
+        return False
+
+    def settled(self, history: History) -> bool:
+        """True if no observable at any point can still be off by a good part of its error.
+
+        A start that is too early for that is moved on, as far as to the middle of the run.
+        """
+        return all([self._settled(history, point) for point in range(len(self.start))])
+
+    def _settled(self, history: History, point: int) -> bool:
+        if self.start[point] < 0 or not self.confirm(history, point):
+            return False
+        if not self.certain[point] and not self._decorrelated(history, point, self.start[point]):
+            return False
+        end = history.mean_collisions()[point]
+        began = self._collisions_at(history, point, self.start[point])
+        while began <= max(0.6 * end, self.least[point]):
+            start = history.record_at_collisions(point, began)
+            if history.length - start < 2:
+                return False
+            if self._resolved(history, point, start, began, end):
+                moved = start > self.start[point]
+                self.start[point] = start
+                return not moved or self.confirm(history, point)
+            began *= 1.15
+        return False
+
+    def _resolved(self, history: History, point: int, start: int, began: float, end: float) -> bool:
+        early = history.record_at_collisions(point, 0.5 * began)
+        if not early < start:
+            return False
+        share = left_over(began, end, self.slow_time[point])
+        if self._drift is None:
+            return True
+        change, uncertainty, error = self._drift(history, point, early, start)
+        for name in change:
+            moved, doubt, allowed = (rms(x[name]) for x in (change, uncertainty, error))
+            if share * (moved + 2.0 * doubt) > TOLERANCE * allowed + 1e-9 * moved:
+                return False
+        return True
+
+    def _decorrelated(self, history: History, point: int, first: int) -> bool:
+        edges = np.linspace(first, history.length, BLOCKS + 1).astype(int)
+        if np.min(np.diff(edges)) < 1:
+            return False
+        blocks = [history.point(point, a, b) for a, b in pairwise(edges)]
+        series = (np.stack([b[name] for b in blocks], axis=1) for name in self.monitored)
+        return all(variogram_ratio(values) < CORRELATED for values in series)
+
+    def _significance(self, history: History, point: int, first, middle, last) -> float:
+        """Smallest significance of a drift of the monitored moments between two windows."""
+        early, late = history.point(point, first, middle), history.point(point, middle, last)
+        return min(float(drift_significance(early[n], late[n])) for n in self.monitored)
+
+    @property
+    def all_measuring(self) -> bool:
+        """True once every point has left its warm-up."""
+        return bool(np.all(self.start >= 0))
+
+
+def rms(values) -> float:
+    """Root of the mean square of what is finite: a profile is judged as one, 0 if there is none."""
+    finite = np.ravel(values)[np.isfinite(np.ravel(values))]
+    return float(np.sqrt(np.mean(finite**2))) if finite.size else 0.0
+
+
+def left_over(began: float, end: float, slow_time: float) -> float:
+    """Mean of exp(-s/slow_time) from `began` to `end` over that from `began`/2 to `began`.
+
+    With a change d seen between the two windows the late one is still off by this times d, or a
+    little more, as long as it is small.
+    """
+    before, after = 0.5 * began / slow_time, max(end - began, 1e-9) / slow_time
+    ratio = (before / after) * np.exp(-before) * np.expm1(-after) / np.expm1(-before)
+    return float(ratio / max(1.0 - ratio, 1e-3))

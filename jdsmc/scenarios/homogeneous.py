@@ -1,0 +1,163 @@
+"""Homogeneous gases: what a scene needs to say when particles have velocities and no places."""
+
+from abc import abstractmethod
+from typing import Any, ClassVar
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from .. import random
+from ..collisions.bound import FASTEST_PAIR
+from ..collisions.meet import Collisions
+from ..collisions.pairs import remix
+from ..collisions.whole import collide
+from ..measure.moments import BIN_WIDTH, Distributions, bin_centres, distributions, moments
+from ..measure.observable import Observable
+from ..measure.observables import (
+    REDUCED,
+    TEMPERATURE,
+    collisional,
+    isotropic,
+    moment_averages,
+)
+from ..motion.drive import centred, mean, temperature_of
+from ..types import Key, Scalar, Velocity
+from ..units import INITIAL_TEMPERATURE
+from .base import AbstractScene, Record
+from .options import Options
+from .pace import make_steps
+
+DISTRIBUTIONS = (
+    Observable("marginal_x", "g_x^(+)(C_x)", dims=("velocity",)),
+    Observable("marginal_y", "g_y^(+)(C_y)", dims=("velocity",)),
+    Observable("speed", "F(C)", dims=("speed_bin",)),
+)
+
+
+class HomogeneousState(eqx.Module):
+    """Velocities, each component rows x lanes (v0), and the majorant over v0(T)."""
+
+    velocity: Velocity
+    majorant: Scalar
+
+
+def maxwellian(key: Key, options: Options, gas, temperature: float) -> HomogeneousState:
+    """Maxwellian velocities, shifted and scaled to mean zero and the exact temperature."""
+    shape, dtype = (options.rows.rows, options.rows.lanes), options.dtype
+    normal = [
+        number
+        for draw in (0, 1)
+        for number in random.normal_pair(random.bits(random.fold_in(key, draw), shape), dtype)
+    ]
+    velocity = tuple(v - mean(v) for v in normal[: gas.dimension])
+    scale = jnp.sqrt(temperature / temperature_of(velocity))
+    return HomogeneousState(tuple(scale * v for v in velocity), first_majorant(gas, dtype))
+
+
+def first_majorant(gas, dtype) -> Scalar:
+    """The rate of a pair so fast that a Maxwellian hardly has a faster one."""
+    return gas.rate(jnp.asarray(FASTEST_PAIR, dtype)) * jnp.ones((), dtype)
+
+
+class HomogeneousRecord(Record):
+    """A record of a homogeneous gas.
+
+    True velocities are exp(`log_scale`) times those of the moments. `slowing`: averages over the
+    steps, relative to the start, of what collisions and their loss of energy go with.
+    """
+
+    log_scale: Scalar
+    slowing: Float[Array, "2"]
+
+
+def homogeneous_observables(*names: str) -> tuple[Observable, ...]:
+    """What every homogeneous gas reports, the named ones first."""
+    known = {one.name: one for one in (TEMPERATURE, *REDUCED)}
+    return tuple(known.pop(name) for name in names) + tuple(known.values())
+
+
+class AbstractHomogeneous(AbstractScene):
+    """A homogeneous gas started from a Maxwellian at T0: a scene states its `step`.
+
+    It may state a `rate` that its steps must resolve, and add to `observables`.
+    """
+
+    sampled: ClassVar[tuple[Observable, ...]] = DISTRIBUTIONS
+
+    @abstractmethod
+    def step(
+        self, key: Key, velocity: Velocity, majorant: Scalar, duration: Scalar, options: Options
+    ) -> tuple[Velocity, Collisions]:
+        """One time step of `duration` (τ0): collisions, and what drives the gas."""
+
+    def rate(self) -> Any:
+        """A rate (1/τ0) that time steps must be short against, beside 1/τ(T)."""
+        return 0.0
+
+    def collide(self, key, velocity, majorant, duration, options) -> tuple[Velocity, Collisions]:
+        """The collision stage of a step."""
+        return collide(key, self.gas, options.rows, velocity, majorant, duration)
+
+    def initial(self, key: Key, options: Options) -> HomogeneousState:
+        """Maxwellian velocities with mean exactly zero and temperature exactly T0."""
+        return maxwellian(key, options, self.gas, INITIAL_TEMPERATURE)
+
+    def advance(
+        self, key: Key, state: HomogeneousState, options: Options
+    ) -> tuple[HomogeneousState, HomogeneousRecord]:
+        """One record: measure, choose the time step, then make `options.steps` of them."""
+        velocity = centred(state.velocity)
+        sampled = moments(velocity)
+
+        def step(key, velocity, majorant, duration):
+            velocity, tally = self.step(key, velocity, majorant, duration, options)
+            return velocity, tally, None
+
+        velocity, majorant, tally, elapsed, _ = make_steps(
+            *(step, key, velocity, state.majorant),
+            *(sampled.temperature(), self.rate(), options),
+        )
+        whole = jnp.zeros_like(elapsed), jnp.ones(2, elapsed.dtype)
+        return HomogeneousState(velocity, majorant), HomogeneousRecord(
+            sampled, tally, elapsed, *whole
+        )
+
+    def finish_chunk(self, state: HomogeneousState) -> tuple[HomogeneousState, Distributions]:
+        """Sample the velocity distributions and deal the particles into new rows."""
+        sample = distributions(state.velocity)
+        return HomogeneousState(tuple(map(remix, state.velocity)), state.majorant), sample
+
+    def averages(self, record: HomogeneousRecord) -> dict[str, np.ndarray]:
+        """Averages over the particles at each record."""
+        return homogeneous_averages(self.gas, record.moments, record.slowing)
+
+    def observables(self, means: dict) -> dict:
+        """What every homogeneous gas has."""
+        return isotropic(means, self.gas.dimension) | collisional(means)
+
+    def sample_densities(self, sample: dict) -> dict:
+        """Probability densities in units of v0(T); each marginal is that of a half space."""
+        halves = {"marginal_x": 0.5, "marginal_y": 0.5, "speed": 1.0}
+        return {name: halves[name] / BIN_WIDTH * values for name, values in sample.items()}
+
+    def axes(self) -> dict:
+        """Speed classes and velocity bins."""
+        return {
+            "speed_class": np.arange(4),
+            "velocity": bin_centres(True),
+            "speed_bin": bin_centres(False),
+        }
+
+
+def homogeneous_averages(gas, m, slowing) -> dict[str, np.ndarray]:
+    """Moments, and the rates of collisions and of their loss in local equilibrium."""
+    averages = moment_averages(m)
+    heat = averages["temperature"]
+    rate, loss = gas.collision_rate(heat), gas.energy_loss_rate(heat)
+    return averages | {
+        "instant_rate": rate,
+        "local_rate": rate * slowing[..., 0],
+        "local_loss": loss * slowing[..., 1],
+    }

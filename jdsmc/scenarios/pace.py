@@ -1,0 +1,54 @@
+"""The steps of one record: majorant and time step follow the gas from step to step."""
+
+import jax.numpy as jnp
+from jax import lax
+
+from .. import random
+from ..collisions.bound import next_majorant
+from ..collisions.meet import Collisions
+from ..types import Key, Scalar, Velocity
+from .options import Options
+
+
+def pace(
+    temperature: Scalar, reduced_majorant: Scalar, rate, options: Options
+) -> tuple[Scalar, Scalar]:
+    """Majorant (v0) and length (τ0) of a step.
+
+    The step is the asked fraction of τ(T) or of 1/`rate` (a shear rate, say), whichever is shorter,
+    and no longer than the pair selection allows. Derivatives do not see it: it is numerics.
+    """
+    thermal = lax.stop_gradient(jnp.sqrt(2.0 * temperature))
+    majorant = lax.stop_gradient(reduced_majorant) * thermal
+    longest = options.rows.largest_hits() * 2.0**0.5 / majorant
+    wanted = options.time_step / jnp.maximum(thermal, lax.stop_gradient(rate))
+    return majorant, jnp.minimum(wanted, longest)
+
+
+def make_steps(
+    step,
+    key: Key,
+    velocity: Velocity,
+    reduced_majorant: Scalar,
+    temperature,
+    rate,
+    options: Options,
+):
+    """`options.steps` steps at the pace of `temperature`, that of the start of the record.
+
+    Arguments: `step(key, velocity, majorant, duration)` returns the new velocity, its `Collisions`
+    and anything else to report; `reduced_majorant` is the majorant over v0(T).
+    Returns: velocity, reduced majorant, tally and duration of all steps, other reports stacked.
+    """
+
+    def one_step(carry, count):
+        velocity, reduced = carry
+        majorant, duration = pace(temperature, reduced, rate, options)
+        velocity, tally, other = step(random.fold_in(key, count), velocity, majorant, duration)
+        return (velocity, next_majorant(reduced, majorant, tally)), (tally, duration, other)
+
+    start = (velocity, reduced_majorant)
+    (velocity, reduced), (tallies, durations, other) = lax.scan(
+        one_step, start, jnp.arange(options.steps)
+    )
+    return velocity, reduced, Collisions.over(tallies), jnp.sum(durations), other

@@ -1,0 +1,55 @@
+"""Gases that cool for ever, held at T0 by a change of the unit of time.
+
+Where nothing but the velocities sets a scale of time (pair rate ∝ g^γ, transfer linear in g),
+multiplying all velocities by a number only changes the unit of time. So at every record velocities
+are scaled back to T0 and the logarithm of the scale is kept: Haff's law in plain time and the
+steady state in reduced time come from one run, exactly, without a thermostat or underflow.
+"""
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from ..gases import AbstractGas, ElasticHardSpheres
+from ..gases.base import speed_exponent
+from ..motion.drive import held_at
+from ..types import Scalar, Velocity
+from ..units import INITIAL_TEMPERATURE
+
+
+def scaled_to_start(velocity: Velocity, log_scale: Scalar) -> tuple[Velocity, Scalar]:
+    """Velocities with mean zero and temperature T0, and the logarithm of their scale."""
+    velocity, factor = held_at(velocity, INITIAL_TEMPERATURE)
+    return velocity, log_scale - jnp.log(factor)
+
+
+def slowed_rates(after: Float[Array, " steps"], exponent: float) -> Float[Array, "2"]:
+    """Averages over the steps of (T/T0)^{γ/2} and (T/T0)^{1+γ/2}, by the trapezoidal rule.
+
+    `after` are the temperatures after each step; the first started at T0. Rates of collisions go
+    with the first, rates of energy loss with the second.
+    """
+    root = jnp.sqrt(jnp.concatenate([jnp.ones(1, after.dtype), after / INITIAL_TEMPERATURE]))
+    power = int(exponent) if exponent == int(exponent) else exponent
+    both = jnp.stack([root**power, root ** (2 + power)])
+    return jnp.mean(0.5 * (both[:, 1:] + both[:, :-1]), axis=1)
+
+
+def plain_time(elapsed: np.ndarray, log_scale: np.ndarray, exponent: float) -> np.ndarray:
+    """Time (τ0) that records lasted whose velocities were divided by exp(log_scale)."""
+    with np.errstate(over="ignore"):
+        return elapsed * np.exp(-exponent * log_scale)
+
+
+def scaling_exponent(gas: AbstractGas) -> float | None:
+    """γ if the gas (which may be swept) knows no speed of its own, else None."""
+    return None if isinstance(gas, ElasticHardSpheres) else speed_exponent(gas)
+
+
+def check_without_drag(gas: AbstractGas, scene: str) -> None:
+    """Raise TypeError unless the gas is one without drag."""
+    if isinstance(gas, ElasticHardSpheres):
+        raise TypeError(
+            f"{scene} needs a gas without drag (a drag only changes the scale of velocities); use "
+            "InelasticHardSpheres."
+        )

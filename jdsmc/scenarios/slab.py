@@ -1,0 +1,132 @@
+"""Gases in a slab: what a scene needs to say when particles have places across it."""
+
+from abc import abstractmethod
+from dataclasses import replace
+from typing import Any, ClassVar
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+
+from .. import random
+from ..collisions.bound import next_bound
+from ..collisions.in_cells import collide_in_layers
+from ..collisions.meet import Collisions
+from ..collisions.trios import LARGEST_PROBABILITY
+from ..motion.cells import layer_of
+from ..types import Key, Layer, Positions, Scalar, Velocities
+from .base import AbstractScene, Record
+from .options import Options
+
+
+class SlabState(eqx.Module):
+    """Positions across the slab (λ0), velocities (v0), and the largest probability per time.
+
+    `crowding` is the largest collision probability of a candidate pair over the step, met lately:
+    what the density, the temperature and the speed of the fastest pair make of it.
+    """
+
+    position: Positions
+    velocity: Velocities
+    crowding: Scalar
+
+    def longest_step(self) -> Scalar:
+        """The step in which no pair met lately collides with more than the allowed probability."""
+        return LARGEST_PROBABILITY / self.crowding
+
+
+def maxwellian_at(key: Key, temperature: Positions) -> Velocities:
+    """Maxwellian velocities of particles at places of given temperatures (m v0²)."""
+    shape, dtype = temperature.shape, temperature.dtype
+    x, y = random.normal_pair(random.bits(random.fold_in(key, 0), shape), dtype)
+    z, _ = random.normal_pair(random.bits(random.fold_in(key, 1), shape), dtype)
+    thermal = jnp.sqrt(temperature)
+    return thermal * x, thermal * y, thermal * z
+
+
+def uniform(key: Key, count: int, dtype) -> Positions:
+    """Uniform numbers in (0, 1)."""
+    return random.unit_interval(random.bits(key, (count,))[0], dtype)
+
+
+class AbstractSlab(AbstractScene):
+    """A gas in a slab of `length` cut into `layers`, collisions taking place within these.
+
+    A scene states how particles `move`, and what to `measure`. It may add to `collide`.
+    """
+
+    length: eqx.AbstractVar[Any]
+    layers: eqx.AbstractVar[int]
+    axis: eqx.AbstractClassVar[str]
+
+    in_space: ClassVar[bool] = True
+
+    @abstractmethod
+    def move(self, key: Key, state: SlabState, duration: Scalar) -> SlabState:
+        """Flight during `duration` (τ0)."""
+
+    @abstractmethod
+    def measure(self, state: SlabState) -> Any:
+        """Sums over each layer (a module of arrays)."""
+
+    @abstractmethod
+    def wanted_step(self, moments: Any, options: Options) -> Scalar:
+        """The time step (τ0) if no pair were too likely, from what was measured."""
+
+    def advance(self, key: Key, state: SlabState, options: Options) -> tuple[SlabState, Record]:
+        """One record: measure, choose the time step, then make `options.steps` of them."""
+        moments = self.measure(state)
+        wanted = self.wanted_step(moments, options)
+
+        def one_step(state, count):
+            duration = jnp.minimum(wanted, lax.stop_gradient(state.longest_step()))
+            state, tally = self.step(random.fold_in(key, count), state, duration, options)
+            return state, (tally, duration)
+
+        counts = jnp.arange(options.steps, dtype=jnp.uint32)
+        state, (tally, durations) = lax.scan(one_step, state, counts)
+        return state, Record(moments, Collisions.over(tally), jnp.sum(durations))
+
+    def step(
+        self, key: Key, state: SlabState, duration: Scalar, options: Options
+    ) -> tuple[SlabState, Collisions]:
+        """Half a flight, collisions, half a flight ("strang"); or flight and collisions ("lie").
+
+        Records fall between two steps, so that in the symmetric step stress is sampled halfway
+        between two collision stages.
+        """
+        before, after = options.halves
+        state = self.move(key, state, before * duration)
+        velocity, tally, met = self.collide(
+            key, self.layer(state.position), state.velocity, duration, options
+        )
+        state = replace(state, velocity=velocity, crowding=next_bound(state.crowding, met))
+        if after:
+            state = self.move(key, state, after * duration)
+        return state, tally
+
+    def layer(self, position: Positions) -> Layer:
+        """The layer of each particle."""
+        return layer_of(position, self.length, self.layers)
+
+    def collide(
+        self, key: Key, layer: Layer, velocity: Velocities, duration: Scalar, options: Options
+    ) -> tuple[Velocities, Collisions, Scalar]:
+        """Collisions within the layers."""
+        return collide_in_layers(key, self.gas, layer, self.layers, velocity, duration)
+
+    def fit_options(self, options: Options) -> Options:
+        """Raise ValueError for too few particles in a layer."""
+        if options.n_particles < 2 * self.layers:
+            raise ValueError(
+                f"n_particles = {options.n_particles} leaves fewer than 2 particles for each of "
+                f"{self.layers} layers; take more particles, or fewer layers."
+            )
+        return options
+
+    def axes(self) -> dict:
+        """Centres of the layers."""
+        centres = (np.arange(self.layers) + 0.5) / self.layers * float(self.length)
+        facts = {"long_name": f"position {self.axis}", "units": "λ0"}
+        return {self.axis: (centres, facts)}
