@@ -8,9 +8,9 @@ With f0 = sum_i a_i phi_i(c^2), the projections on phi_k are
 
     sum_ij T_kij a_i a_j + zeta sum_i D_ki a_i = 0,    D_ki = int phi_i c^2 dphi_k/d(c^2) dc,
 
-and zeta = (1 - alpha^2) sum_ij Z_ij a_i a_j is the loss of energy of the same expansion, so that the
-equations of number and energy hold exactly. They and the two norms take the place of the last two
-projections. Newton's method, started from the Maxwellian.
+and zeta = (1 - alpha^2) sum_ij Z_ij a_i a_j is the loss of energy of the same expansion, so that
+number and energy are balanced exactly. The two norms take the place of the last two projections.
+Newton's method, started from the Maxwellian.
 """
 
 from dataclasses import dataclass
@@ -76,6 +76,6 @@ def solve_cooling(restitution: float, order: int) -> CoolingExpansion:
         if np.abs(step).max() < TOLERANCE:
             return CoolingExpansion(basis, a, float(a @ loss @ a))
     raise RuntimeError(
-        f"the cooling state at restitution = {restitution} with order = {order} did not converge in "
+        f"the cooling state at restitution = {restitution}, order = {order} did not converge in "
         f"{MOST_STEPS} Newton steps; use an order of at least 12 and a restitution in [0.3, 1]."
     )
