@@ -14,7 +14,7 @@ The only approximation is the finite order. The error that is left is stated wit
 `truncation`: the largest change from about two thirds of the order (two lower orders, lest one be
 right by chance) to the whole, plus an allowance for rounding. It is on the safe side: at the
 default order the true errors, for restitutions from 0.3 to 1, are below a tenth of it, that is
-1e-7 for the coefficients and a3, 1e-9 for a2 and the cooling rate, 2e-6 for b'_2, 4e-5 for b'_3.
+2e-7 for the coefficients and a3, 1e-9 for a2 and the cooling rate, 2e-6 for b'_2, 4e-5 for b'_3.
 """
 
 from collections.abc import Callable
