@@ -88,8 +88,8 @@ def scattered_pairs(table: np.ndarray, a: np.ndarray, b: np.ndarray, shift: int)
 def linear_elements(table: np.ndarray, m: int, rows: int, columns: int, partners: int):
     """K[i, j, j'] = int int h_ii(c1) h_{j'+m,j'}(c2) int db g [Delta h_{j+m,j}]^*.
 
-    Both velocities have the Gaussian weight. Delta is the sum over both particles, after minus before; shape (partners + 1, rows + 1,
-    columns + 1). For m = 0 it is symmetric in i and j'.
+    Both velocities have the Gaussian weight; Delta is the sum over both particles, after minus
+    before. Shape (partners + 1, rows + 1, columns + 1). For m = 0 symmetric in i and j'.
     """
     result = np.zeros((partners + 1, rows + 1, columns + 1))
     for j in range(rows + 1):

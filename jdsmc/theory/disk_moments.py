@@ -83,7 +83,7 @@ def cooling_distribution(restitution: float, order: int) -> tuple[Floats, float]
     raise RuntimeError(f"No cooling state of Sonine order {order} at restitution {restitution:g}.")
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=40)  # at most 6 MB each
 def moments(restitution: float, degree: int, order: int) -> Moments:
     """The linear equations of the moments m + 2 j <= degree about f of Sonine order `order`."""
     coefficients, mu = cooling_distribution(restitution, order)

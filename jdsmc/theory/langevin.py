@@ -19,9 +19,11 @@ exact one a dilute elastic gas has eta / eta0 = 1.0220.
     mode.autocorrelation(np.linspace(0, 50, 200))
 
 `truncation` holds for each number what the cut-offs of the expansion leave: the extrapolated rest
-in the degree of the moments plus the difference of two Sonine orders of the cooling state. It is
-below 1e-4 (relative) for restitution >= 0.7 and reduced_number >= 20, and percents at 0.5, where
-the expansion is only asymptotic; below 0.4 everything here refuses.
+in the degree of the moments plus the difference of two Sonine orders of the cooling state. At
+reduced_number >= 20 it is below 1e-4 (relative) for restitution >= 0.75, and at 0.7 for all but
+C(0) and the decay rate, 1.2e-4 there; towards smaller numbers it grows (elastic viscosity: 5e-5
+at 15, 5e-4 at 10, and the tail 1e-2 at 8). At 0.5 it is percents, as the expansion is only
+asymptotic; below 0.4 everything but the closed forms refuses.
 
 C(s) starts flat (momentum is conserved in a collision) and bends into the tail
 A exp(-s / tau) with A > C(0). The noise strength eta1 of (11) is that of C(0); the one of a white
@@ -132,7 +134,7 @@ def stability_limit(restitution: float) -> float:
 
 
 def stability_limit_truncation(restitution: float) -> float:
-    """What the cut-offs leave of `stability_limit`: 2e-3 of 24.88 at 0.7, 4e-2 of 19.75 at 0.6."""
+    """What the cut-offs leave of `stability_limit`: 5e-4 of 24.88 at 0.7, 7e-3 of 19.75 at 0.6."""
     return _stability_limit(_checked(restitution))[1]
 
 

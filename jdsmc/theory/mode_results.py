@@ -87,7 +87,7 @@ class TransverseMode:
 
         Of the largest degree, not extrapolated. But for the first they stand for a continuum.
         """
-        return self._fine.rates / COLLISION_TIME, self._fine.weights
+        return self._fine.rates / COLLISION_TIME, self._fine.weights.copy()
 
     def autocorrelation(self, time: ArrayLike) -> Floats:
         """C(s) at the times `time` >= 0 in tau0, of any shape; of the largest degree.

@@ -25,6 +25,7 @@ LEVELS = (  # smallest restitution, three degrees, the Sonine order used and the
     (0.775, (24, 32, 40), (8, 6)),
     (0.745, (16, 24, 32), (8, 6)),
     (0.69, (16, 20, 24), (8, 6)),
+    (0.64, (12, 16, 20), (6, 4)),
     (0.59, (8, 12, 16), (6, 4)),
     (0.49, (8, 10, 12), (5, 4)),
     (LOWEST_RESTITUTION, (6, 8, 10), (4, 3)),
@@ -59,7 +60,7 @@ def levels(restitution: float, degree: int | None) -> tuple[tuple[int, ...], tup
     degrees, orders = next(entry[1:] for entry in LEVELS if restitution >= entry[0])
     if degree is None:
         return degrees, orders
-    step = max(2, 2 * (degree // 8))
+    step = max(4, 2 * (degree // 8))
     return (degree - 2 * step, degree - step, degree), orders
 
 
@@ -85,7 +86,7 @@ def solve(restitution: float, wave_number: float, degree: int, order: int) -> So
         )
     if np.any(solution.rates[1:].real <= 0):
         raise ValueError(
-            f"degree = {degree} is too high at restitution {restitution:g}: moments grow that must "
+            f"degree {degree} is too high at restitution {restitution:g}: moments grow that must "
             f"not; at most {levels(restitution, None)[0][-1]} is safe."
         )
     return solution
@@ -119,4 +120,6 @@ def extrapolate(values: Floats) -> tuple[Floats, Floats]:
     ratio = np.clip(ratio, -0.7, 0.7)
     rest = second * ratio / (1 - ratio)
     larger = np.maximum(np.abs(first), np.abs(second))
-    return values[2] + rest, np.where(shrinks, np.abs(rest) + 0.1 * np.abs(second), larger)
+    # the parts of the differences: `second` may be small by chance, where the error changes sign
+    error = np.abs(rest) + 0.2 * np.abs(second) + 0.1 * np.abs(first)
+    return values[2] + rest, np.where(shrinks, error, larger)
