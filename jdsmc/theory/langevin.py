@@ -88,7 +88,7 @@ def transverse_mode(
 ) -> TransverseMode:
     """Fluctuations of the smallest transverse mode at N n sigma^2 = `reduced_number`.
 
-    With `degree` None the numbers are extrapolated from three degrees of the moments (about 2 s
+    With `degree` None the numbers are extrapolated from three degrees of the moments (about 1 s
     for the first call at a restitution, below 1 s for more); with a degree (12 to 40) they are
     those of this degree. `unstable` continues the equations beyond the stability limit, where C(0)
     is negative and no stationary state exists. ValueError outside 0.4 <= restitution <= 1,
