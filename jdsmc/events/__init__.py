@@ -8,7 +8,16 @@ v0 = τ0 = 1 with λ0 = 1/(2√2 nσ) and T0 = 1/2; a gas is given by its number
     system, samples = events.advance_scaled(system, 0.8, growth_rate=0.079, n_samples=100)
 """
 
-from .simulate import advance, advance_scaled, faults, phase_space, start
+from .simulate import advance, advance_scaled, faults, phase_space, place, start
 from .system import Samples, System
 
-__all__ = ["Samples", "System", "advance", "advance_scaled", "faults", "phase_space", "start"]
+__all__ = [
+    "Samples",
+    "System",
+    "advance",
+    "advance_scaled",
+    "faults",
+    "phase_space",
+    "place",
+    "start",
+]

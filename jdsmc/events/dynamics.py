@@ -50,12 +50,14 @@ STALL_LENGTH = 1000
 
 @compiled
 def move(system, disk, now):
-    """Bring the stored position of a disk to the present, within the box."""
-    disks, side = system.disks, system.box[SIDE]
+    """Bring the stored position of a disk to the present.
+
+    It lies in the box, to rounding, since `cross` carries it over when the disk leaves.
+    """
+    disks = system.disks
     lag = now - disks[disk, MOVED]
-    for axis in range(2):
-        position = disks[disk, X + axis] + disks[disk, VX + axis] * lag
-        disks[disk, X + axis] = position - side * np.floor(position / side)
+    disks[disk, X] += disks[disk, VX] * lag
+    disks[disk, Y] += disks[disk, VY] * lag
     disks[disk, MOVED] = now
 
 
@@ -138,7 +140,9 @@ def cross(system, disk, now):
     n_cells = first.shape[0]
     remove(links, following, first, disk)
     index = links[disk, COLUMN + axis] + step
-    links[disk, COLUMN + axis] = index + n_cells * ((index < 0) - (index >= n_cells))
+    around = (index < 0) - (index >= n_cells)  # once around the box
+    links[disk, COLUMN + axis] = index + n_cells * around
+    disks[disk, X + axis] += system.box[SIDE] * around
     insert(links, following, first, disk)
     disks[disk, LEAVES_X + axis] += system.box[CELL_SIDE] / abs(velocity)
     ahead, across = (step, step), (-1, 1)

@@ -97,10 +97,9 @@ def foresee_all_around(system, disk, now):
 
 
 @compiled
-def time_to_side(position, velocity, cell, cell_side, side):
+def time_to_side(position, velocity, cell, cell_side):
     """Time until a disk at `position` leaves its cell through one pair of sides."""
     within = position - cell * cell_side
-    within -= side * np.rint(within / side)  # the cell may begin at the other end of the box
     if velocity > 0.0:
         return max(cell_side - within, 0.0) / velocity
     if velocity < 0.0:
@@ -117,7 +116,6 @@ def foresee_leaving(disks, links, box, disk):
             disks[disk, VX + axis],
             links[disk, COLUMN + axis],
             box[CELL_SIDE],
-            box[SIDE],
         )
 
 

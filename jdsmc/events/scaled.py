@@ -47,7 +47,6 @@ def check_places(system):
             lag = system.clock[TIME] - disks[disk, MOVED]
             position = disks[disk, X + axis] + disks[disk, VX + axis] * lag
             within = position - links[disk, COLUMN + axis] * cell_side
-            within -= side * np.floor(within / side + 0.5 - 0.5 * cell_side / side)
             if not -margin <= within <= cell_side + margin:  # true also of NaN
                 system.counts[MISPLACED] += 1
 
@@ -79,7 +78,7 @@ def rebuild(system):
     for disk in range(n_disks):
         for axis in range(2):
             index = int(disks[disk, X + axis] / box[CELL_SIDE])
-            links[disk, COLUMN + axis] = min(index, n_cells - 1)
+            links[disk, COLUMN + axis] = max(min(index, n_cells - 1), 0)  # rounding, and NaN
         insert(links, system.following, system.first, disk)
     check_overlaps(system)
     leaves = system.tree_time.size // 2

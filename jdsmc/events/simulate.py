@@ -55,6 +55,31 @@ def start(n_particles: int, density: float, seed: int) -> System:
     return system
 
 
+def place(positions, velocities, density: float) -> System:
+    """Disks at given places, (N, 2) in λ0, with given velocities, (N, 2) in v0, at time zero.
+
+    The side of the box follows from N and the density nσ²; positions are taken modulo the side.
+    Raises ValueError where shapes differ, numbers are not finite, or disks overlap.
+    """
+    check.scalar("density", density, 0.0, MAX_DENSITY)
+    positions, velocities = np.asarray(positions, float), np.asarray(velocities, float)
+    for name, array in (("positions", positions), ("velocities", velocities)):
+        if array.shape != (len(positions), 2) or not np.all(np.isfinite(array)):
+            raise ValueError(f"{name} must be finite numbers of shape (N, 2), equal for both.")
+    check.at_least("number of positions", len(positions), 2)
+    _, scaled = _compiled()
+    system = empty(len(positions), density)
+    system.disks[:, at.X : at.Y + 1] = positions % system.box[at.SIDE]
+    system.disks[:, at.VX : at.VY + 1] = velocities
+    scaled.rebuild(system)
+    if system.counts[at.OVERLAPS]:
+        raise ValueError(
+            f"positions: {system.counts[at.OVERLAPS]} pairs are nearer than one diameter, "
+            f"σ = {system.box[at.DIAMETER]:g}."
+        )
+    return system
+
+
 def empty(n_particles: int, density: float) -> System:
     """Arrays of the right shapes, without disks; nσ = 1/(2√2) gives σ and L."""
     diameter = density * 2.0 * math.sqrt(2.0)
@@ -125,7 +150,7 @@ def advance_scaled(
     system = system.copy()
     _set_growth_rate(scaled, system, float(growth_rate))
     time, collisions = np.zeros(n_samples), np.zeros(n_samples, np.int64)
-    modes, moments, sums = np.zeros((n_samples, 4, 2)), np.zeros((n_samples, 2)), None
+    modes, moments = np.zeros((n_samples, 4, 2)), np.zeros((n_samples, 2))
     sums = np.zeros((n_samples, 2))
     records = (time, modes, moments, collisions, sums)
     scaled.run_samples(system, float(restitution), float(sample_interval), rescale_every, records)
