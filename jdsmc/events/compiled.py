@@ -1,8 +1,11 @@
 """How the functions of this package are compiled."""
 
+from typing import Any
+
 from numba import njit
 
-OPTIONS = {"nogil": True, "error_model": "numpy"}
+OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy"}
+UNCOUNTED: dict[str, Any] = {"_nrt": False}
 
 
 def compiled(function):
@@ -13,6 +16,6 @@ def compiled(function):
     option is not public; where numba does not know it, the code is slower and otherwise the same.
     """
     try:
-        return njit(**OPTIONS, _nrt=False)(function)
+        return njit(**OPTIONS, **UNCOUNTED)(function)
     except (KeyError, TypeError):
         return njit(**OPTIONS)(function)

@@ -41,7 +41,10 @@ from .tree import enter
 CONTACT_ROUNDING = 1e-9
 """Largest relative deviation of r² from σ² at a collision; rounding leaves about 1e-13."""
 COLLAPSE_INTERVAL = 1e-6
-"""Collisions of a disk follow each other more quickly than this (in τ0) in a collapse."""
+"""Collisions of a disk follow each other more quickly than this in a collapse.
+
+In τ0 of the clock in use: scaled time, or plain time, in which a gas that cools slows down.
+"""
 COLLAPSE_LENGTH = 8
 """So many quick intervals in a row are called a collapse: by chance 1e-40 at low density."""
 STALL_LENGTH = 1000

@@ -2,6 +2,8 @@
 
 import subprocess
 import sys
+import threading
+import time
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -176,6 +178,18 @@ def test_threads_change_nothing():
         side_by_side = list(pool.map(lambda s: events.advance(s, 0.9, 5.0), systems))
     for system, threaded in zip(systems, side_by_side, strict=True):
         assert same(events.advance(system, 0.9, 5.0), threaded)
+
+
+def test_other_threads_run_meanwhile():
+    """10^5 collisions take 0.2 s at least; a thread that held Python's lock would allow no tick."""
+    system = events.advance(events.start(1000, 0.01, seed=9), 1.0, 0.0)
+    thread = threading.Thread(target=events.advance, args=(system, 1.0, 230.0))
+    thread.start()
+    ticks = 0
+    while thread.is_alive():
+        time.sleep(0.002)
+        ticks += 1
+    assert ticks > 10
 
 
 def test_import_is_free_of_numba_and_use_says_what_is_missing():
