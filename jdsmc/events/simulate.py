@@ -12,7 +12,7 @@ from .system import Samples, System
 MAX_DENSITY = 0.5
 """Largest nσ² that is started. Dropping disks at random jams at nσ² = 0.696 (packing 0.547)."""
 DROPS_PER_DISK = 1000
-"""Places tried per disk before all are taken up again; at nσ² = 0.5 six are enough for 3000 disks."""
+"""Places tried per disk before all are taken up again; 3000 disks at nσ² = 0.5 need six."""
 DISKS_PER_CELL = 1.3
 """Fastest at nσ² = 0.01: fewer cell crossings against fewer pairs to look at."""
 RESCALE_EVERY = 8
