@@ -29,6 +29,9 @@ STRESS_RATE = 1.0
 STRESS_RATE_SPREAD = 0.4
 """Standard deviation of ln k2 before the data: three to five times that scatter."""
 
+FASTEST_TAIL = 0.6
+"""Largest κ/k2; beyond 0.7 the form is no autocorrelation, its spectrum becomes negative."""
+
 
 class Spectrum(NamedTuple):
     """Periodograms of blocks and what is needed to fit them.
@@ -120,9 +123,9 @@ def _score(parameters, power, spectrum, prior):
 
 
 def _confined(parameters: np.ndarray, spectrum: Spectrum) -> np.ndarray:
-    """The tail at most 0.8 times as fast as the stress; no slower than 1000 records."""
+    """The tail at most FASTEST_TAIL times as fast as the stress; no slower than 1000 records."""
     slowest = np.log(1e-3 / (spectrum.length * spectrum.spacing))
-    slow = np.clip(parameters[1], slowest, parameters[2] + np.log(0.8))
+    slow = np.clip(parameters[1], slowest, parameters[2] + np.log(FASTEST_TAIL))
     return np.array([parameters[0], slow, parameters[2]])
 
 
@@ -130,7 +133,7 @@ def first_guess(power: np.ndarray, spectrum: Spectrum, stress_rate: float) -> np
     """Best of 40 decay rates, each with its best amplitude."""
     record = spectrum.length * spectrum.spacing
     trials = []
-    for slow in np.geomspace(0.1 / record, 0.6 * stress_rate, 40):
+    for slow in np.geomspace(0.1 / record, 0.5 * stress_rate, 40):
         start = np.log([1.0, slow, stress_rate])
         model = expected(start, spectrum)
         start[0] = np.log(np.average(power / model, weights=spectrum.weight))

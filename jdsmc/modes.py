@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .check import at_least, scalar
-from .mode_spectrum import HIGHEST_FREQUENCY, STRESS_RATE, fit, periodograms
+from .mode_spectrum import FASTEST_TAIL, HIGHEST_FREQUENCY, STRESS_RATE, fit, periodograms
 from .stats import jackknife
 
 T0 = 0.5
@@ -216,6 +216,6 @@ def _doubts(run: float, block: float, blocks: int, pooled) -> tuple[str, ...]:
         )
     if blocks < FEWEST_BLOCKS:
         doubts.append(f"Only {blocks} blocks: the error bars are themselves uncertain.")
-    if pooled[1] > pooled[2] + np.log(0.79):
+    if pooled[1] > pooled[2] + np.log(0.99 * FASTEST_TAIL):
         doubts.append("The mode decays as fast as the stress behind it: no hydrodynamic tail.")
     return tuple(doubts)
