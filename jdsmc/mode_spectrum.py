@@ -67,28 +67,42 @@ def periodograms(blocks: np.ndarray, spacing: float, highest: float):
     return Spectrum(frequency[kept], weight, length, spacing), both
 
 
-def expected_exponential(rate: complex, spectrum: Spectrum) -> np.ndarray:
-    """Expected periodogram of a mode with C(s) = Re exp(-rate |s|), at the Fourier frequencies.
+def expected_exponential(rate, spectrum: Spectrum):
+    """Expected periodogram of a mode with C(s) = Re exp(-rate |s|), and its slope by ln |rate|.
 
     Σ_l Re(r^|l|) (1 - |l|/B) exp(-iωhl), r = exp(-rate h), |l| < B, summed in closed form: the
-    aliasing by the sampling and the leakage of the finite record are in it exactly.
+    aliasing by the sampling and the leakage of the finite record are in it exactly. `rate` is a
+    real or a complex number with a positive real part. Both arrays have the shape (frequencies,).
     """
     turn = np.exp(1j * spectrum.frequency * spectrum.spacing)
-    step = np.exp(-rate * spectrum.spacing)
-    last = np.exp(-rate * spectrum.spacing * spectrum.length)
-    total = -np.ones(turn.shape)
-    for q in (step * turn, step / turn):
-        half = 1.0 / (1.0 - q) - q * (1.0 - last) / (spectrum.length * (1.0 - q) ** 2)
-        total = total + half.real
-    return total
+    decay = rate * spectrum.spacing
+    step, last = np.exp(-decay), np.exp(-decay * spectrum.length)
+    share = (1.0 - last) / spectrum.length
+    # of a real rate the two directions are complex conjugates of each other
+    ways = (step * turn, step / turn) if np.iscomplexobj(rate) else (step * turn,)
+    total, slope = np.zeros(turn.shape), np.zeros(turn.shape)
+    for q in ways:
+        inverse = 1.0 / (1.0 - q)
+        ratio = q * inverse
+        total += (inverse * (1.0 - share * ratio)).real
+        change = inverse * (1.0 - share * (1.0 + 2.0 * ratio) + last)
+        slope -= (decay * ratio * change).real
+    return 2.0 / len(ways) * total - 1.0, 2.0 / len(ways) * slope
 
 
-def expected(parameters: np.ndarray, spectrum: Spectrum) -> np.ndarray:
-    """Expected periodogram of the model, parameters (ln C(0), ln κ, ln k2)."""
+def expected(parameters: np.ndarray, spectrum: Spectrum):
+    """Expected periodogram of the model at (ln C(0), ln κ, ln k2), and its slopes by them.
+
+    Returns: arrays (frequencies,) and (3, frequencies).
+    """
     amplitude, slow, fast = np.exp(parameters)
-    tail = expected_exponential(slow, spectrum)
-    start = expected_exponential(fast * (1.0 + 1j * PHASE), spectrum)
-    return amplitude * (fast * tail - slow * start) / (fast - slow)
+    tail, tail_slope = expected_exponential(slow, spectrum)
+    start, start_slope = expected_exponential(fast * (1.0 + 1j * PHASE), spectrum)
+    scale = amplitude / (fast - slow)
+    model = scale * (fast * tail - slow * start)
+    by_slow = scale * (fast * tail_slope - slow * start) + model * slow / (fast - slow)
+    by_fast = scale * (fast * tail - slow * start_slope) - model * fast / (fast - slow)
+    return model, np.array([model, by_slow, by_fast])
 
 
 def model_autocorrelation(lag, amplitude: float, slow: float, fast: float) -> np.ndarray:
@@ -98,28 +112,21 @@ def model_autocorrelation(lag, amplitude: float, slow: float, fast: float) -> np
     return amplitude * (fast * np.exp(-slow * lag) - slow * start) / (fast - slow)
 
 
-def _loss(parameters, power, spectrum, prior):
-    """Minus the logarithm of Whittle's likelihood times the prior of ln k2."""
-    model = expected(parameters, spectrum)
-    fit = np.sum(spectrum.weight * (np.log(model) + power / model))
-    return fit + 0.5 * ((parameters[2] - prior) / STRESS_RATE_SPREAD) ** 2
+def _likelihood(parameters, power, spectrum, prior):
+    """Minus the logarithm of Whittle's likelihood times the prior; uphill gradient, information.
 
-
-def _score(parameters, power, spectrum, prior):
-    """Gradient of the logarithm of the likelihood and its Fisher information."""
-    model = expected(parameters, spectrum)
-    step = 1e-4
-    slopes = [np.ones(model.shape)]  # of ln C(0)
-    for index in (1, 2):
-        shift = step * np.eye(3)[index]
-        change = expected(parameters + shift, spectrum) - expected(parameters - shift, spectrum)
-        slopes.append(change / (2 * step * model))
-    slope = np.array(slopes)
-    gradient = slope @ (spectrum.weight * (power / model - 1.0))
+    Returns: a number, (3,) and the Fisher matrix (3, 3), all with the prior of ln k2.
+    """
+    model, slopes = expected(parameters, spectrum)
+    slope = slopes / model
+    excess = power / model
+    distance = (parameters[2] - prior) / STRESS_RATE_SPREAD
+    loss = np.sum(spectrum.weight * (np.log(model) + excess)) + 0.5 * distance**2
+    gradient = slope @ (spectrum.weight * (excess - 1.0))
     fisher = (slope * spectrum.weight) @ slope.T
-    gradient[2] -= (parameters[2] - prior) / STRESS_RATE_SPREAD**2
+    gradient[2] -= distance / STRESS_RATE_SPREAD
     fisher[2, 2] += 1.0 / STRESS_RATE_SPREAD**2
-    return gradient, fisher
+    return loss, gradient, fisher
 
 
 def _confined(parameters: np.ndarray, spectrum: Spectrum) -> np.ndarray:
@@ -135,9 +142,10 @@ def first_guess(power: np.ndarray, spectrum: Spectrum, stress_rate: float) -> np
     trials = []
     for slow in np.geomspace(0.1 / record, 0.5 * stress_rate, 40):
         start = np.log([1.0, slow, stress_rate])
-        model = expected(start, spectrum)
+        model, _ = expected(start, spectrum)
         start[0] = np.log(np.average(power / model, weights=spectrum.weight))
-        trials.append((_loss(start, power, spectrum, start[2]), start))
+        loss, _, _ = _likelihood(start, power, spectrum, start[2])
+        trials.append((loss, start))
     return min(trials, key=lambda trial: trial[0])[1]
 
 
@@ -151,14 +159,13 @@ def fit(power: np.ndarray, spectrum: Spectrum, stress_rate: float, start=None) -
     """
     prior = np.log(stress_rate)
     at = first_guess(power, spectrum, stress_rate) if start is None else start
-    loss = _loss(at, power, spectrum, prior)
+    loss, gradient, fisher = _likelihood(at, power, spectrum, prior)
     for _ in range(50):
-        gradient, fisher = _score(at, power, spectrum, prior)
         step = np.linalg.solve(fisher, gradient)
         step = step / max(1.0, np.max(np.abs(step)))
         for _ in range(20):
             trial = _confined(at + step, spectrum)
-            lower = _loss(trial, power, spectrum, prior)
+            lower, gradient, fisher = _likelihood(trial, power, spectrum, prior)
             if lower <= loss:
                 break
             step = 0.5 * step
@@ -166,6 +173,6 @@ def fit(power: np.ndarray, spectrum: Spectrum, stress_rate: float, start=None) -
             return at
         moved = np.max(np.abs(trial - at))
         at, loss = trial, lower
-        if moved < 1e-5:  # quadratic convergence: far below any error bar
+        if moved < 1e-5:  # the next step would be smaller still: far below any error bar
             break
     return at

@@ -9,7 +9,6 @@ unlike the form that is fitted. Rates and weights to 6 decimals: C(0) and slope 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.fft import next_fast_len
 
 MEAN_FREE_PATHS = np.sqrt(8.0)  # k λ0 = 2π/√(8 N n σ²)
 
@@ -55,7 +54,8 @@ class ModeProcess:
         Exact synthesis from the spectrum of the autocorrelation on a circle, which is so long
         that C has fallen by e^-12 before it closes.
         """
-        length = 2 * next_fast_len(shape[-1] + int(12 / self.decay_rate / spacing))
+        enough = shape[-1] + int(12 / self.decay_rate / spacing)
+        length = 1 << int(2 * enough - 1).bit_length()
         lag = np.arange(length)
         circle = self.autocorrelation(spacing * np.minimum(lag, length - lag))
         spectrum = np.fft.fft(circle).real

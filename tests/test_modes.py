@@ -24,7 +24,7 @@ T0 = 0.5
 PROCESSES = {"elastic": ELASTIC, "inelastic": INELASTIC, "near the limit": NEAR_THE_LIMIT}
 
 
-def _measure(process: ModeProcess, series, spacing, temperature=T0, **options):
+def _measure(process: ModeProcess, series, spacing, temperature: object = T0, **options):
     return measure_modes(
         series,
         spacing,
@@ -36,26 +36,23 @@ def _measure(process: ModeProcess, series, spacing, temperature=T0, **options):
     )
 
 
-def _expectation(correlation, length, spacing):
-    """Σ_l c(l) (1 - |l|/B) exp(-iωl) at ω = 2πj/(Bh), j = 0..B/2, term by term."""
-    lag = np.arange(-length + 1, length)
+def _expectation(correlation, length, spacing, highest=np.inf):
+    """Σ_l c(l) (1 - |l|/B) exp(-iωl) at ω = 2πj/(Bh) <= highest, j = 0..B/2, term by term."""
+    lag = np.arange(length)
     frequency = 2 * np.pi * np.arange(length // 2 + 1) / (length * spacing)
-    terms = correlation(spacing * lag) * (1 - np.abs(lag) / length)
+    frequency = frequency[frequency <= highest]
+    terms = correlation(spacing * lag) * (1 - lag / length)
+    terms[1:] *= 2  # both signs of the lag
     return frequency, np.cos(np.outer(frequency * spacing, lag)) @ terms
 
 
 def test_expected_periodogram_is_the_sum():
     """The closed form of a damped cosine against the sum over lags, to rounding (1e-12)."""
-    for rate, length, spacing in ((0.3 + 0.2j, 16, 0.7), (0.01 + 0j, 51, 3.0), (2 - 1j, 40, 0.1)):
-        frequency, direct = _expectation(
-            lambda s, r=rate: np.exp(-r * np.abs(s)).real, length, spacing
-        )
+    for rate, length, spacing in ((0.3 + 0.2j, 16, 0.7), (0.01, 51, 3.0), (2 - 1j, 40, 0.1)):
+        frequency, direct = _expectation(lambda s, r=rate: np.exp(-r * s).real, length, spacing)
         spectrum = Spectrum(frequency, np.ones_like(frequency), length, spacing)
-        # a cosine is the half sum of two complex rates; Re of one is not its own spectrum
-        half = 0.5 * (
-            expected_exponential(rate, spectrum) + expected_exponential(np.conj(rate), spectrum)
-        )
-        np.testing.assert_allclose(half, direct, rtol=1e-10, atol=1e-12 * direct.max())
+        found, _ = expected_exponential(rate, spectrum)
+        np.testing.assert_allclose(found, direct, rtol=1e-10, atol=1e-12 * direct.max())
 
 
 def test_periodogram_of_white_noise_is_flat():
@@ -81,6 +78,18 @@ def test_model_starts_flat_and_has_the_tail():
     np.testing.assert_allclose(late, tail * np.exp(-40.0 * slow), rtol=1e-12)
 
 
+def test_slopes_of_the_model():
+    """Against central differences over 1e-5: their error is 1e-10, rounding 1e-11; bound 1e-8."""
+    frequency = 2 * np.pi * np.arange(40) / (50 * 0.7)
+    spectrum = Spectrum(frequency, np.ones(40), 50, 0.7)
+    at = np.log([3.0, 0.07, 1.2])
+    model, slopes = expected(at, spectrum)
+    for index in range(3):
+        shift = 1e-5 * np.eye(3)[index]
+        change = expected(at + shift, spectrum)[0] - expected(at - shift, spectrum)[0]
+        np.testing.assert_allclose(slopes[index], change / 2e-5, atol=1e-8 * model.max())
+
+
 def test_fit_of_its_own_expectation_is_exact():
     """No noise and the true form: the truth comes back, to the tolerance of the search, 1e-5.
 
@@ -89,32 +98,60 @@ def test_fit_of_its_own_expectation_is_exact():
     truth = np.log([3.0, 0.07, 1.2])
     frequency = 2 * np.pi * np.arange(60) / (600 * 0.7)
     spectrum = Spectrum(frequency, np.full(60, 1e8), 600, 0.7)
-    found = fit(expected(truth, spectrum), spectrum, 1.0)
+    found = fit(expected(truth, spectrum)[0], spectrum, 1.0)
     np.testing.assert_allclose(found, truth, atol=2e-5)
 
 
-@pytest.mark.parametrize("name", PROCESSES)
-@pytest.mark.parametrize("samples_per_decay", [None, 5])
-def test_bias_is_below_a_quarter_of_the_error(name, samples_per_decay):
-    """The fitted form is not the true one; what that does, without noise, at 1000 decay times.
-
-    The expected periodogram of blocks of 25 decay times is fitted; the errors are those seen with
-    two modes and 1000 decay times (relative: 1/τ, and C(0) exact by construction): the quadrature
-    of the Fisher matrix gives 0.034 to 0.043, 0.027 to 0.031 and 0.024 to 0.031 in 1/τ.
-    """
-    process = PROCESSES[name]
-    error = {"elastic": 0.038, "inelastic": 0.027, "near the limit": 0.024}[name]
-    spacing = 0.7 if samples_per_decay is None else 1 / (5 * process.decay_rate)
-    length = int(25 / process.decay_rate / spacing)
-    frequency, power = _expectation(process.autocorrelation, length, spacing)
-    kept = frequency <= HIGHEST_FREQUENCY
-    weight = np.full(kept.sum(), 40 * 2 * 2.0)  # blocks, modes, ±ω
+def _fit_without_noise(autocorrelation, decay_rate, spacing):
+    """(C(0), κ, k2) of the expected periodogram of 1000 decay times in blocks of 25, two modes."""
+    length = int(25 / decay_rate / spacing)
+    frequency, power = _expectation(autocorrelation, length, spacing, HIGHEST_FREQUENCY)
+    weight = np.full(frequency.size, 40 * 2 * 2.0)  # blocks, modes, ±ω
     weight[0] /= 2
-    spectrum = Spectrum(frequency[kept], weight, length, spacing)
-    _, rate, fast = np.exp(fit(power[kept], spectrum, 1.0))
-    assert abs(rate / process.decay_rate - 1) < 0.25 * error
-    tail = process.autocorrelation(0.0) * fast / (fast - rate)
-    assert abs(tail / process.terms[0][2] - 1) < 0.25 * 0.0225  # of C(0): √(τ/2s)
+    return np.exp(fit(power, Spectrum(frequency, weight, length, spacing), 1.0))
+
+
+ERROR_OF_RATE = {"elastic": 0.041, "inelastic": 0.030, "near the limit": 0.025}
+"""Relative, of two modes and 1000 decay times: from the Fisher matrix of the fit, and as seen."""
+
+
+@pytest.mark.parametrize("name", PROCESSES)
+@pytest.mark.parametrize("spacing", [0.7, None])
+def test_bias_of_the_rate_is_below_a_quarter_of_its_error(name, spacing):
+    """The fitted form is not the true one: what that does to 1/τ, without noise. C(0) is exact."""
+    process = PROCESSES[name]
+    spacing = spacing or 0.2 / process.decay_rate
+    _, rate, _ = _fit_without_noise(process.autocorrelation, process.decay_rate, spacing)
+    assert abs(rate / process.decay_rate - 1) < 0.25 * ERROR_OF_RATE[name]
+
+
+ERRORS = {  # of 1/τ, of η1 and of A, relative: 1000 decay times, mean over 100 blind runs
+    (1.0, 15.0): (0.046, 0.041, 0.033),
+    (1.0, 20.0): (0.039, 0.036, 0.025),
+    (1.0, 30.0): (0.032, 0.026, 0.021),
+    (0.8, 15.0): (0.033, 0.028, 0.022),
+    (0.8, 20.0): (0.027, 0.020, 0.021),
+    (0.8, 30.0): (0.024, 0.0095, 0.021),
+}
+
+
+@pytest.mark.parametrize("spacing", [0.7, None])
+@pytest.mark.parametrize(("restitution", "reduced_number"), ERRORS)
+def test_bias_for_a_gas_of_disks(restitution, reduced_number, spacing):
+    """1/τ (hence η), η1 and the tail for the theory's C(s): below a quarter of their errors."""
+    langevin = pytest.importorskip("jdsmc.theory.langevin")
+    mode = langevin.transverse_mode(restitution, reduced_number, 14)  # C(s) to 1e-3: it will do
+    rates, weights = mode.decay_modes
+
+    def autocorrelation(lag):
+        return (np.exp(-np.abs(lag)[:, None] * rates) @ weights).real
+
+    spacing = spacing or 0.2 / mode.decay_rate
+    _, rate, fast = _fit_without_noise(autocorrelation, rates[0].real, spacing)
+    rate_error, noise_error, tail_error = ERRORS[restitution, reduced_number]
+    assert abs(rate / rates[0].real - 1) < 0.25 * min(rate_error, noise_error)  # C(0) is exact
+    tail = autocorrelation(np.zeros(1))[0] * fast / (fast - rate)
+    assert abs(tail / weights[0].real - 1) < 0.25 * tail_error
 
 
 def test_autocorrelation_is_the_mean_over_pairs():
@@ -126,7 +163,7 @@ def test_autocorrelation_is_the_mean_over_pairs():
     np.testing.assert_allclose(found.lag, 0.7 * np.arange(found.lag.size))
     for lag in (0, 1, 9):
         pairs = series[..., lag:] * np.conj(series[..., : 200 - lag])
-        direct = np.mean(pairs.real) / (PARTICLES * T0)
+        direct = np.real(np.mean(pairs)) / (PARTICLES * T0)
         assert found.autocorrelation[lag] == pytest.approx(direct, rel=1e-12)
     each = np.mean(np.abs(series) ** 2, axis=(1, 2)) / (PARTICLES * T0)
     by_hand = np.std(each, ddof=1) / np.sqrt(3)  # the jackknife of a mean
@@ -182,7 +219,7 @@ def _scores(process, seeds, decay_times, spacing, realizations=8, drift=0.0):
     samples = int(decay_times / process.decay_rate / spacing)
     scores = {name: [] for name in process.truth()}
     for seed in range(seeds):
-        rng = np.random.default_rng([seed, 7])
+        rng = np.random.default_rng([seed, 11])
         series = process.sample(rng, (realizations, 2, samples), spacing)
         phase = np.arange(samples) / samples + rng.random((realizations, 1))
         wave = 1 + drift * (np.sin(2 * np.pi * phase) + np.linspace(-1, 1, samples))
@@ -195,7 +232,8 @@ def _scores(process, seeds, decay_times, spacing, realizations=8, drift=0.0):
 def _assert_calibrated(scores):
     """|mean| < 0.5, and at least 88 % within two errors: what the estimator is asked to do.
 
-    A normal score of 40 seeds has the mean within 0.16 and 95 % within two errors.
+    500 seeds of "inelastic" gave means of at most 0.19, standard deviations of 1.00 to 1.03 and
+    93 to 95 % within two errors; of 40 seeds so few as 88 % come with a chance of some percent.
     """
     for name, score in scores.items():
         assert abs(np.mean(score)) < 0.5, name
@@ -204,8 +242,8 @@ def _assert_calibrated(scores):
 
 @pytest.mark.parametrize("name", ["elastic", "inelastic"])
 def test_blind(name):
-    """40 seeds of 8 realizations of 150 decay times, sampled every τ/5."""
-    _assert_calibrated(_scores(PROCESSES[name], 40, 150, None))
+    """100 seeds of 8 realizations of 75 decay times, sampled every τ/5."""
+    _assert_calibrated(_scores(PROCESSES[name], 100, 75, None))
 
 
 CAMPAIGN = list(itertools.product(PROCESSES, (150, 300), (0.7, None), (0.0, 0.03)))
