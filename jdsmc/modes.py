@@ -25,6 +25,16 @@ FEWEST_BLOCKS = 8
 LONGEST_LAG = 5.0
 """C(s) is given up to this many decay times."""
 
+FITTED = (
+    "mode_decay_rate",
+    "viscosity_ratio",
+    "noise_viscosity_ratio",
+    "noise_over_viscosity",
+    "tail_amplitude",
+    "tail_noise_viscosity_ratio",
+    "tail_noise_over_viscosity",
+)
+
 
 @dataclass(frozen=True)
 class ModeMeasurement:
@@ -32,7 +42,8 @@ class ModeMeasurement:
 
     lag: (lags,) in τ0.
     autocorrelation, autocorrelation_error: (lags,) C(s)/(N T~/m) and one standard error.
-    value, error: by name, `error` one standard error:
+    value, error: by name, `error` one standard error; NaN where C(s) has no exponential tail
+        (a homogeneous DSMC, white noise), of all but C(0) and the temperature:
         mode_amplitude: C(0) = ⟨|ξ|²⟩/(N T~/m), the equal-time one.
         mode_decay_rate: 1/τ, in 1/τ0.
         viscosity_ratio: η/η0 = (1/τ + μ)/(k² ν_el(T~)), eq. (10).
@@ -61,7 +72,15 @@ class ModeMeasurement:
 
 
 def measure_modes(
-    series, spacing, particles, temperature, growth_rate, wave_number, *, longest_lag=None
+    series,
+    spacing,
+    particles,
+    temperature,
+    growth_rate,
+    wave_number,
+    *,
+    longest_lag=None,
+    highest_frequency=HIGHEST_FREQUENCY,
 ) -> ModeMeasurement:
     """Estimate C(s), C(0), 1/τ, η, η1 from stationary series of equivalent modes.
 
@@ -75,6 +94,8 @@ def measure_modes(
         growth_rate: the imposed μ, in 1/τ0.
         wave_number: k, in 1/λ0.
         longest_lag: of C(s), in τ0; without it 5 decay times. Never more than half a block.
+        highest_frequency: of the fit, in √(T~/T0)/τ0; lower for less bias and more noise, as in
+            runs of 10⁴ decay times, or for N n σ² above 50.
     Raises: TypeError or ValueError for what is out of range, or too short to say anything.
 
     The rate is fitted to the periodograms of blocks of about 25 decay times by Whittle's
@@ -87,11 +108,13 @@ def measure_modes(
     at_least("particles", particles, 1)
     scalar("growth_rate", 1.0 + growth_rate, 1.0 - 1e-12, np.inf)
     scalar("wave_number", wave_number, 0.0, np.inf)
+    scalar("highest_frequency", highest_frequency, 0.0, np.inf)
     temperature = _per_sample(temperature, series)
     pace = np.sqrt(np.mean(temperature) / T0)
-    start, length = _block_length(series, spacing, pace)
+    highest = highest_frequency * pace
+    start, length = _block_length(series, spacing, pace, highest)
     blocks, warm = _cut(series, length), _cut(temperature[:, None], length)
-    spectrum, power = periodograms(blocks, spacing, HIGHEST_FREQUENCY * pace)
+    spectrum, power = periodograms(blocks, spacing, highest)
     pooled = fit(np.mean(power, axis=0), spectrum, STRESS_RATE * pace, start)
     decay = float(np.exp(-pooled[1]))
     lags = int((longest_lag or LONGEST_LAG * decay) / spacing) + 1
@@ -108,6 +131,8 @@ def measure_modes(
         return result | {"autocorrelation": mean["correlation"] / norm}
 
     value, error = jackknife(means, observables, axis=0)
+    if _no_tail(pooled):
+        error |= dict.fromkeys(FITTED, np.nan)
     correlation, correlation_error = value.pop("autocorrelation"), error.pop("autocorrelation")
     run, block = series.shape[0] * series.shape[2] * spacing / decay, length * spacing / decay
     return ModeMeasurement(
@@ -132,6 +157,8 @@ def _checked_series(series) -> np.ndarray:
         raise ValueError(f"series has {series.shape[2]} samples of a mode; give at least 16.")
     if not np.all(np.isfinite(series)):
         raise ValueError("series must be finite: a mode has overflowed.")
+    if not np.any(series):
+        raise ValueError("series is zero everywhere; give modes that fluctuate.")
     return series.astype(complex)
 
 
@@ -149,12 +176,12 @@ def _per_sample(temperature, series) -> np.ndarray:
     return np.broadcast_to(warm if warm.ndim != 1 else warm[:, None], (realizations, samples))
 
 
-def _block_length(series, spacing, pace):
+def _block_length(series, spacing, pace, highest):
     """Parameters fitted to whole realizations, and the samples in a block of 25 decay times.
 
     At least two blocks of one realization, when there is no other: a jackknife needs them.
     """
-    spectrum, power = periodograms(series, spacing, HIGHEST_FREQUENCY * pace)
+    spectrum, power = periodograms(series, spacing, highest)
     start = fit(np.mean(power, axis=0), spectrum, STRESS_RATE * pace)
     realizations, _, samples = series.shape
     count = max(1, int(samples * spacing * np.exp(start[1]) / USUAL_BLOCK))
@@ -201,6 +228,11 @@ def _derived(found, amplitude, growth_rate, wave_number, mean) -> dict:
     }
 
 
+def _no_tail(found) -> bool:
+    """The fit lies at the edge of what it can describe."""
+    return bool(found[1] > found[2] + np.log(0.99 * FASTEST_TAIL))
+
+
 def _doubts(run: float, block: float, blocks: int, pooled) -> tuple[str, ...]:
     """Sentences on what makes the error bars doubtful."""
     doubts = []
@@ -216,6 +248,6 @@ def _doubts(run: float, block: float, blocks: int, pooled) -> tuple[str, ...]:
         )
     if blocks < FEWEST_BLOCKS:
         doubts.append(f"Only {blocks} blocks: the error bars are themselves uncertain.")
-    if pooled[1] > pooled[2] + np.log(0.99 * FASTEST_TAIL):
+    if _no_tail(pooled):
         doubts.append("The mode decays as fast as the stress behind it: no hydrodynamic tail.")
     return tuple(doubts)

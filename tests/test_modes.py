@@ -272,6 +272,16 @@ def test_one_realization_is_cut_in_two():
     assert all(np.isfinite(number) for number in found.error.values())
 
 
+def test_no_tail_has_no_error():
+    """White noise: C(0) = 1 is measured (within 4.5 errors), a rate is not, and it says so."""
+    rng = np.random.default_rng(9)
+    noise = rng.normal(size=(8, 2, 500)) + 1j * rng.normal(size=(8, 2, 500))
+    found = _measure(ELASTIC, np.sqrt(PARTICLES * T0 / 2) * noise, 3.0)
+    assert abs(found.value["mode_amplitude"] - 1) < 4.5 * found.error["mode_amplitude"]
+    assert np.isnan(found.error["viscosity_ratio"])
+    assert "no hydrodynamic tail" in found.warnings[-1]
+
+
 def test_bad_input():
     series = ELASTIC.sample(np.random.default_rng(8), (4, 2, 100), 1.5)
     with pytest.raises(TypeError, match="series must be"):
@@ -284,6 +294,8 @@ def test_bad_input():
         _measure(dataclasses.replace(ELASTIC, growth_rate=-0.1), series, 1.5)
     with pytest.raises(ValueError, match="temperature must be positive"):
         _measure(ELASTIC, series, 1.5, -0.5)
+    with pytest.raises(ValueError, match="zero everywhere"):
+        _measure(ELASTIC, 0 * series, 1.5)
     series[0, 0, 0] = np.nan
     with pytest.raises(ValueError, match="finite"):
         _measure(ELASTIC, series, 1.5)
