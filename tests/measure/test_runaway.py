@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from jdsmc.runaway import runs_away
+from jdsmc.measure.runaway import runs_away
 
 from .mode_process import NEAR_THE_LIMIT
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from jdsmc.extrapolation import extrapolate
+from jdsmc.measure.extrapolation import extrapolate
 
 NUMBERS = np.array([1000.0, 1500.0, 2000.0, 3000.0])
 

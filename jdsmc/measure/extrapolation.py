@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .check import at_least
+from ..check import at_least
 
 
 @dataclass(frozen=True)

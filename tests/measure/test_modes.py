@@ -6,7 +6,7 @@ import itertools
 import numpy as np
 import pytest
 
-from jdsmc.mode_spectrum import (
+from jdsmc.measure.mode_spectrum import (
     HIGHEST_FREQUENCY,
     Spectrum,
     expected,
@@ -15,7 +15,7 @@ from jdsmc.mode_spectrum import (
     model_autocorrelation,
     periodograms,
 )
-from jdsmc.modes import measure_modes
+from jdsmc.measure.modes import measure_modes
 
 from .mode_process import ELASTIC, INELASTIC, NEAR_THE_LIMIT, ModeProcess
 

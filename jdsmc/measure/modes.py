@@ -5,14 +5,22 @@ Units: T0 = m v0²/2 with v0 = m = 1, lengths λ0 = 1/(2√2 n σ), times τ0 = 
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from .check import at_least, scalar
-from .mode_spectrum import FASTEST_TAIL, HIGHEST_FREQUENCY, STRESS_RATE, fit, periodograms
-from .stats import jackknife
+from ..check import at_least, scalar
+from ..stats import jackknife
+from ..units import INITIAL_TEMPERATURE as T0
+from .mode_spectrum import (
+    FASTEST_TAIL,
+    HIGHEST_FREQUENCY,
+    STRESS_RATE,
+    Spectrum,
+    fit,
+    periodograms,
+)
 
-T0 = 0.5
 ELASTIC_VISCOSITY = 1.0 / np.sqrt(np.pi)
 """ν_el = η0/(n m) of elastic disks at T0, first Sonine order, in λ0 v0."""
 
@@ -103,37 +111,23 @@ def measure_modes(
     blocks of all realizations, refitted without each, so that the correlation of C(0) and τ is in
     those of their ratios. They are one standard error, without a factor of Student's t.
     """
-    series = _checked_series(series)
-    scalar("spacing", spacing, 0.0, np.inf)
     at_least("particles", particles, 1)
     scalar("growth_rate", 1.0 + growth_rate, 1.0 - 1e-12, np.inf)
     scalar("wave_number", wave_number, 0.0, np.inf)
-    scalar("highest_frequency", highest_frequency, 0.0, np.inf)
-    temperature = _per_sample(temperature, series)
-    pace = np.sqrt(np.mean(temperature) / T0)
-    highest = highest_frequency * pace
-    start, length = _block_length(series, spacing, pace, highest)
-    blocks, warm = _cut(series, length), _cut(temperature[:, None], length)
-    spectrum, power = periodograms(blocks, spacing, highest)
-    pooled = fit(np.mean(power, axis=0), spectrum, STRESS_RATE * pace, start)
-    decay = float(np.exp(-pooled[1]))
-    lags = int((longest_lag or LONGEST_LAG * decay) / spacing) + 1
-    means = {
-        "power": power,
-        "correlation": _correlation(blocks, max(2, min(lags, length // 2))),
-        "temperature": np.mean(warm, axis=(1, 2)),
-    }
+    means, plan = block_means(series, spacing, temperature, highest_frequency)
+    decay = float(np.exp(-plan.pooled[1]))
+    lags = min(int((longest_lag or LONGEST_LAG * decay) / spacing) + 1, plan.spectrum.length // 2)
+    means["correlation"] = means["correlation"][:, : max(2, lags)]
 
     def observables(mean):
-        found = fit(mean["power"], spectrum, STRESS_RATE * pace, pooled)
-        norm = particles * mean["temperature"]
-        result = _derived(found, mean["correlation"][0] / norm, growth_rate, wave_number, mean)
-        return result | {"autocorrelation": mean["correlation"] / norm}
+        return mode_observables(mean, plan, particles, growth_rate, wave_number)
 
-    value, error = jackknife(means, observables, axis=0)
-    if _no_tail(pooled):
+    value, error, _ = jackknife(means, observables, axis=0)
+    if no_tail(plan.pooled):
         error |= dict.fromkeys(FITTED, np.nan)
     correlation, correlation_error = value.pop("autocorrelation"), error.pop("autocorrelation")
+    blocks, length = len(means["power"]), plan.spectrum.length
+    series = np.asarray(series)
     run, block = series.shape[0] * series.shape[2] * spacing / decay, length * spacing / decay
     return ModeMeasurement(
         lag=spacing * np.arange(correlation.size),
@@ -141,12 +135,55 @@ def measure_modes(
         autocorrelation_error=correlation_error,
         value={name: float(number) for name, number in value.items()},
         error={name: float(number) for name, number in error.items()},
-        stress_rate=float(np.exp(pooled[2])),
-        blocks=len(blocks),
+        stress_rate=float(np.exp(plan.pooled[2])),
+        blocks=blocks,
         block_length=float(block),
         run_length=float(run),
-        warnings=_doubts(run, block, len(blocks), pooled),
+        warnings=doubts(run, block, blocks, plan.pooled),
     )
+
+
+class Plan(NamedTuple):
+    """How series were cut: the spectrum of a block, √(T~/T0), parameters fitted to all of them."""
+
+    spectrum: Spectrum
+    pace: float
+    pooled: np.ndarray
+
+
+def block_means(
+    series, spacing, temperature, highest_frequency=HIGHEST_FREQUENCY
+) -> tuple[dict[str, np.ndarray], Plan]:
+    """What adds up over blocks: `power`, `correlation`, `temperature`, arrays (blocks, ...).
+
+    Arguments as of `measure_modes`. A block lasts about 25 decay times.
+    """
+    series = _checked_series(series)
+    scalar("spacing", spacing, 0.0, np.inf)
+    scalar("highest_frequency", highest_frequency, 0.0, np.inf)
+    temperature = _per_sample(temperature, series)
+    pace = float(np.sqrt(np.mean(temperature) / T0))
+    highest = highest_frequency * pace
+    start, length = _block_length(series, spacing, pace, highest)
+    blocks, warm = cut(series, length), cut(temperature[:, None], length)
+    spectrum, power = periodograms(blocks, spacing, highest)
+    pooled = fit(np.mean(power, axis=0), spectrum, STRESS_RATE * pace, start)
+    means = {
+        "power": power,
+        "correlation": _correlation(blocks, max(2, length // 2)),
+        "temperature": np.mean(warm, axis=(1, 2)),
+    }
+    return means, Plan(spectrum, pace, pooled)
+
+
+def mode_observables(
+    mean: dict, plan: Plan, particles: float, growth_rate: float, wave_number: float
+) -> dict:
+    """Everything of `ModeMeasurement.value`, and C(s), from an average of block means."""
+    found = fit(mean["power"], plan.spectrum, STRESS_RATE * plan.pace, plan.pooled)
+    norm = particles * mean["temperature"]
+    result = _derived(found, mean["correlation"][0] / norm, growth_rate, wave_number, mean)
+    return result | {"autocorrelation": mean["correlation"] / norm}
 
 
 def _checked_series(series) -> np.ndarray:
@@ -193,7 +230,7 @@ def _block_length(series, spacing, pace, highest):
     return start, samples // count
 
 
-def _cut(series: np.ndarray, length: int) -> np.ndarray:
+def cut(series: np.ndarray, length: int) -> np.ndarray:
     """(realizations, modes, samples) to (blocks, modes, length), dropping the remainder."""
     realizations, modes, samples = series.shape
     count = samples // length
@@ -228,12 +265,12 @@ def _derived(found, amplitude, growth_rate, wave_number, mean) -> dict:
     }
 
 
-def _no_tail(found) -> bool:
+def no_tail(found) -> bool:
     """The fit lies at the edge of what it can describe."""
     return bool(found[1] > found[2] + np.log(0.99 * FASTEST_TAIL))
 
 
-def _doubts(run: float, block: float, blocks: int, pooled) -> tuple[str, ...]:
+def doubts(run: float, block: float, blocks: int, pooled) -> tuple[str, ...]:
     """Sentences on what makes the error bars doubtful."""
     doubts = []
     if run < SHORTEST_RUN:
@@ -248,6 +285,6 @@ def _doubts(run: float, block: float, blocks: int, pooled) -> tuple[str, ...]:
         )
     if blocks < FEWEST_BLOCKS:
         doubts.append(f"Only {blocks} blocks: the error bars are themselves uncertain.")
-    if _no_tail(pooled):
+    if no_tail(pooled):
         doubts.append("The mode decays as fast as the stress behind it: no hydrodynamic tail.")
     return tuple(doubts)

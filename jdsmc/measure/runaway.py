@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from .check import at_least, scalar
+from ..check import at_least, scalar
+from ..units import INITIAL_TEMPERATURE as T0
 
-T0 = 0.5
 STEP = 3.0
 """In τ0: longer than the stress remembers, so that the mode is a Markov chain at this step."""
 
