@@ -1,7 +1,7 @@
 """The estimator of fluctuating modes: exact parts, bias in units of its error, blind tests."""
 
-import dataclasses
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -112,7 +112,7 @@ def _fit_without_noise(autocorrelation, decay_rate, spacing):
 
 
 ERROR_OF_RATE = {"elastic": 0.041, "inelastic": 0.030, "near the limit": 0.025}
-"""Relative, of two modes and 1000 decay times: from the Fisher matrix of the fit, and as seen."""
+"""Relative, of two modes and 1000 decay times: Fisher matrix of the fit, and blind runs."""
 
 
 @pytest.mark.parametrize("name", PROCESSES)
@@ -159,7 +159,6 @@ def test_autocorrelation_is_the_mean_over_pairs():
     rng = np.random.default_rng(2)
     series = INELASTIC.sample(rng, (3, 2, 200), 0.7)
     found = _measure(INELASTIC, series, 0.7, longest_lag=7.0)
-    assert found.blocks == 3
     np.testing.assert_allclose(found.lag, 0.7 * np.arange(found.lag.size))
     for lag in (0, 1, 9):
         pairs = series[..., lag:] * np.conj(series[..., : 200 - lag])
@@ -232,8 +231,8 @@ def _scores(process, seeds, decay_times, spacing, realizations=8, drift=0.0):
 def _assert_calibrated(scores):
     """|mean| < 0.5, and at least 88 % within two errors: what the estimator is asked to do.
 
-    500 seeds of "inelastic" gave means of at most 0.19, standard deviations of 1.00 to 1.03 and
-    93 to 95 % within two errors; of 40 seeds so few as 88 % come with a chance of some percent.
+    500 seeds (with frequencies up to 0.8) had 93 to 95 % within two errors; 40 seeds are too few
+    to tell that from 88 %.
     """
     for name, score in scores.items():
         assert abs(np.mean(score)) < 0.5, name
@@ -291,7 +290,7 @@ def test_bad_input():
     with pytest.raises(ValueError, match="spacing"):
         _measure(ELASTIC, series, 0.0)
     with pytest.raises(ValueError, match="growth_rate"):
-        _measure(dataclasses.replace(ELASTIC, growth_rate=-0.1), series, 1.5)
+        _measure(replace(ELASTIC, growth_rate=-0.1), series, 1.5)
     with pytest.raises(ValueError, match="temperature must be positive"):
         _measure(ELASTIC, series, 1.5, -0.5)
     with pytest.raises(ValueError, match="zero everywhere"):
