@@ -121,11 +121,12 @@ class Session:
         blocks as independent, so it is used for this decision only.
         """
         first, last = self.tracker.start[point], self.history.length
+        in_blocks = self.limits.records is None and not self.correlated
+        if last - first < (2 * BLOCKS if in_blocks else 1):  # the start may be the end so far
+            return np.inf
         value, error, _ = steady_estimates(self.history, point, first)
         block_error = error
-        if self.limits.records is None and not self.correlated:
-            if last - first < 2 * BLOCKS:
-                return np.inf
+        if in_blocks:
             edges = np.linspace(first, last, BLOCKS + 1).astype(int)
             _, block_error, _ = steady_estimates(self.history, point, edges)
         return max(
