@@ -106,7 +106,7 @@ class SteadyTracker:
         return float(began + GROWTH * max(collisions - began, FIRST_TEST))
 
     @staticmethod
-    def _collisions_at(history: History, point: int, record: int) -> float:
+    def _collisions_at(history: History, point: int, record: int | np.integer) -> float:
         return float(np.mean(history["collisions"][point, :, min(record, history.length - 1)]))
 
     def confirm(self, history: History, point: int) -> bool:
@@ -159,7 +159,7 @@ class SteadyTracker:
                 return False
         return True
 
-    def _decorrelated(self, history: History, point: int, first: int) -> bool:
+    def _decorrelated(self, history: History, point: int, first: int | np.integer) -> bool:
         edges = np.linspace(first, history.length, BLOCKS + 1).astype(int)
         if np.min(np.diff(edges)) < 1:
             return False
@@ -173,12 +173,18 @@ class SteadyTracker:
             history.monitored(point, a, b, self.monitored)
             for a, b in ((first, middle), (middle, last))
         )
-        return min(float(drift_significance(early[n], late[n])) for n in self.monitored)
+        return min(smallest_significance(early[n], late[n]) for n in self.monitored)
 
     @property
     def all_measuring(self) -> bool:
         """True once every point has left its warm-up."""
         return bool(np.all(self.start >= 0))
+
+
+def smallest_significance(early: np.ndarray, late: np.ndarray) -> float:
+    """Of a drift of any component, which are as many chances (Bonferroni)."""
+    each = drift_significance(early, late, axis=0)
+    return float(np.min(each)) * each.size
 
 
 def rms(values) -> float:
