@@ -28,7 +28,7 @@ _SCENES = {
 def _view(result):
     """What shows a scene: `generic` unless a module is there that finds all that it needs."""
     view = _SCENES.get(result.attrs.get("scene", ""), generic)
-    return view if view.NEEDS <= set(map(str, result.series.data_vars)) else generic
+    return view if view.NEEDS.issubset(map(str, result.series.data_vars)) else generic
 
 
 def _page(result) -> Page:

@@ -20,6 +20,9 @@ SYMBOLS = {
 }
 """Of the numbers of jdsmc's own scenes and gases; others are called by their names."""
 
+UNITS = {"shear_rate": "1/τ0", "gravity": "v0²/λ0", "length": "λ0", "kick": "1/v0"}
+"""Of the same numbers."""
+
 GASES = {
     "InelasticHardSpheres": "inelastic hard spheres",
     "ElasticHardSpheres": "elastic hard spheres with drag",
@@ -115,8 +118,13 @@ def label(data: xr.Dataset, point: dict[str, int]) -> str:
     for name, k in point.items():
         value = short(data[name].values[k])
         named = value if name == "gas" else f"{symbol(data, name)} = {value}"
-        words.append(f"{named} {unit(data, name)}".strip())
+        words.append(_with(named, unit(data, name)))
     return ", ".join(words)
+
+
+def _with(number: str, unit: str) -> str:
+    """A number and its unit: 0.3/τ0, not 0.3 1/τ0."""
+    return number + unit[1:] if unit.startswith("1/") else f"{number} {unit}".strip()
 
 
 def parameter(result, here: xr.Dataset, name: str):
@@ -140,8 +148,8 @@ def title(result, what: str = "") -> str:
     facts = [f"{what}: {' and '.join(gases)}"]
     for key, value in attrs.items():
         name = key.removeprefix("parameter_")
-        if name != key and np.ndim(value) == 0 and name not in result.dims:
-            facts.append(f"{_named(result, name)} = {short(value)}{_unit_of(result, name)}")
+        if name != key and np.ndim(value) == 0:
+            facts.append(_with(f"{_named(name)} = {short(value)}", UNITS.get(name, "")))
         name = key.removeprefix("option_")
         if name != key and isinstance(value, str) and value != "None":
             facts.append(f"{name.replace('_', ' ')} {value.replace('_', ' ')}")
@@ -149,15 +157,8 @@ def title(result, what: str = "") -> str:
     return ", ".join([*facts, f"{attrs.get('n_realizations')} realizations"])
 
 
-def _named(result, name: str) -> str:
+def _named(name: str) -> str:
     return SYMBOLS.get(name, name.replace("_", " "))
-
-
-UNITS = {"shear_rate": "1/τ0", "gravity": "v0²/λ0", "length": "λ0", "kick": "1/v0"}
-
-
-def _unit_of(result, name: str) -> str:
-    return f" {UNITS[name]}" if name in UNITS else ""
 
 
 def words_of(name: str) -> str:

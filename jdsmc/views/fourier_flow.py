@@ -57,7 +57,7 @@ def draw(result):
     _walls(panels[0], result, dims)
     pictures.readable_log(panels[1], steady["density"].values)
     pictures.profile(panels[3], steady, dims, "pressure_zz", label=False, ls="--")
-    panels[3].relim()
+    panels[3].set_xlabel("z (λ0), cold wall at 0")
     panels[3].autoscale()
     panels[3].plot([], [], "k-", lw=1.2, label="p")
     panels[3].plot([], [], "k--", lw=1.2, label="P_zz")
@@ -73,7 +73,7 @@ def draw(result):
 def _walls(panel, result, dims) -> None:
     """Crosses at the temperatures of the walls."""
     steady = result.steady
-    for number, point in enumerate(common.some_points(steady, dims)):
+    for number, point in enumerate(pictures.drawn(steady, dims)):
         here = steady.isel(point)
         cold = float(common.parameter(result, here, "cold_temperature"))
         length = float(common.parameter(result, here, "length"))

@@ -10,7 +10,7 @@ from .page import Page
 
 NEEDS = {"modified_conductivity", "sonine", "sonine_marginal"}
 ORDERS = (1, 2, 3)
-SMOOTHED = 40
+SMOOTHED = 15
 """Windows over which a time series of Sonine coefficients is averaged: so many are shown."""
 LABELS = {
     (name, k): f"Sonine coefficient b'{k + 1}, eq. ({equation})"

@@ -1,6 +1,7 @@
 """Figures, curves with bands, markers with bars, legends beside the data."""
 
 import io
+import re
 import textwrap
 from collections import Counter
 from math import ceil
@@ -45,8 +46,11 @@ def grid(number: int, columns: int = 0, width: float = 4.2, height: float = 3.1)
 def finish(figure: Figure, panels, title: str, spread: str = SPREAD) -> Figure:
     """Title and legends: what several panels share below them, the rest above its panel."""
     width = figure.get_figwidth()
-    lines = textwrap.wrap(title, int(11.5 * width)) + textwrap.wrap(spread, int(11.5 * width))
-    figure.suptitle("\n".join(lines), fontsize=10)
+    lines = [line for text in (title, spread) for line in _wrapped(text, int(11.5 * width))]
+    figure.suptitle(pretty("\n".join(lines)), fontsize=10)
+    for panel in panels:
+        panel.set_xlabel(pretty(panel.get_xlabel()))
+        panel.set_ylabel(pretty(panel.get_ylabel()))
     legends = [dict(zip(*_reversed(panel), strict=True)) for panel in panels]
     uses = Counter(label for legend in legends for label in legend)
     shared = {}
@@ -56,15 +60,29 @@ def finish(figure: Figure, panels, title: str, spread: str = SPREAD) -> Figure:
         if own:
             inches = panel.get_subplotspec().get_position(figure).width * width
             panel.legend(
-                *(own.values(), own.keys()),
+                *(own.values(), [pretty(label) for label in own]),
                 **_style(own, inches),
                 loc="lower left",
                 bbox_to_anchor=(0.0, 1.0),
             )
     if shared:
         style = _style(shared, width)
-        figure.legend(shared.values(), shared.keys(), **style, loc="outside lower center")
+        labels = [pretty(label) for label in shared]
+        figure.legend(shared.values(), labels, **style, loc="outside lower center")
     return figure
+
+
+def _wrapped(text: str, width: int) -> list[str]:
+    """Lines that end after a comma where they can."""
+    kept = re.sub(r"(?<![,;:]) ", "\N{NO-BREAK SPACE}", text)
+    return textwrap.wrap(kept, width, break_long_words=True)
+
+
+def pretty(text: str) -> str:
+    """Subscripts of one or two letters as such; what else there is stays as it is."""
+    text = text.replace("$", r"\$")
+    text = re.sub(r"([^\W\d_]'?)_([A-Za-z]{1,2}|[+-])(?![A-Za-z_])", r"$\1_{\2}$", text)
+    return text.replace("^(+)", "$^{(+)}$")
 
 
 def _reversed(panel):
@@ -74,8 +92,8 @@ def _reversed(panel):
 
 def _style(legend: dict, inches: float) -> dict:
     """As many columns as fit."""
-    longest = max(len(label) for label in legend) + 5
-    columns = max(1, min(len(legend), int(13.5 * inches / longest)))
+    longest = max(len(label) for label in legend)
+    columns = max(1, min(len(legend), int(inches / (0.065 * longest + 0.55))))
     return {"fontsize": 8, "frameon": False, "ncols": columns, "borderaxespad": 0.2}
 
 
@@ -120,7 +138,7 @@ def profile(panel, data: xr.Dataset, dims, name: str, label: bool = True, **styl
     (along,) = common.own_dims(data, name, dims)
     x = data[along].values if along in data.coords else np.arange(data.sizes[along])
     seen = []
-    for number, point in enumerate(common.some_points(data, dims)):
+    for number, point in enumerate(drawn(data, dims)):
         here = data.isel(point)
         value, error = here[name].values, here[f"{name}_error"].values
         text = common.label(data, point) if label else ""
@@ -138,9 +156,24 @@ def across(data: xr.Dataset, dims) -> str:
     return max(numbers, key=lambda d: data.sizes[d], default="")
 
 
+def drawn(data: xr.Dataset, dims) -> list[dict[str, int]]:
+    """Points of a sweep whose profiles and velocities are drawn.
+
+    Where several numbers are swept, those at the first value along the axis of `against_sweep`, in
+    the order, hence the colours, of the markers there.
+    """
+    x = across(data, dims)
+    others = [d for d in dims if d != x]
+    if not (x and others):
+        return common.some_points(data, dims)
+    each = list(common.points(data, others))[: common.MOST_CURVES]
+    return [{d: (point | {x: 0})[d] for d in dims} for point in each]
+
+
 def against_sweep(panel, data: xr.Dataset, dims, x: str, name: str, **style) -> None:
     """Steady values against a swept number; the other swept numbers by marker and colour."""
     others = [d for d in dims if d != x]
+    style = style if others else {"color": "k"} | style
     for number, point in enumerate(common.points(data, others)):
         here = data.isel(point)
         value, error = here[name].values, here[f"{name}_error"].values

@@ -99,7 +99,7 @@ def _profiles_in_time(panels, result) -> None:
 def _sweep_profiles(panels, result, dims) -> None:
     """Steady ones; before that, the last."""
     data = result.steady if result.is_steady else result.series.isel(sample=-1)
-    for number, point in enumerate(common.some_points(data, dims)):
+    for number, point in enumerate(pictures.drawn(data, dims)):
         label = common.label(data, point)
         _draw_profiles(panels, result, data.isel(point), label, f"C{number}")
     _uniform_lines(panels, data)

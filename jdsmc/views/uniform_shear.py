@@ -145,6 +145,6 @@ def _draw_sweep(result, x: str):
     if with_velocities:
         velocities.draw(panels[-2], result, "velocity")
         velocities.draw(panels[-1], result, "speed_bin")
-        first = common.some_points(result.distribution, dims)[0]
+        first = pictures.drawn(result.distribution, dims)[0]
         _model_velocities(panels[-2:], result, result.distribution.isel(first))
     return pictures.finish(figure, panels, common.title(result, "Uniform shear flow"))

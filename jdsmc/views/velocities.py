@@ -6,7 +6,7 @@ import xarray as xr
 from . import common, pictures
 
 VELOCITIES = ("velocity", "speed_bin")
-AXES = {"velocity": "C_x or C_y", "speed_bin": "C"}
+AXES = {"marginal_x": "C_x", "marginal_y": "C_y", "speed": "C"}
 SYMBOLS = {"marginal_x": "g_x", "marginal_y": "g_y", "speed": "F"}
 
 
@@ -31,7 +31,7 @@ def draw(panel, result, along: str, names: list[str] | None = None) -> None:
     wanted = names or kinds(data, dims)[along]
     chosen = wanted if not dims else wanted[:1]
     x, floors = data[along].values, []
-    for number, point in enumerate(common.some_points(data, dims)):
+    for number, point in enumerate(pictures.drawn(data, dims)):
         for k, name in enumerate(chosen):
             value, error = (data.isel(point)[key].values for key in (name, f"{name}_error"))
             shown = np.where((value > 0) & (value > error), value, np.nan)
@@ -41,21 +41,19 @@ def draw(panel, result, along: str, names: list[str] | None = None) -> None:
     if along in VELOCITIES:
         _maxwellian(panel, data, chosen[0], along)
     _limits(panel, x, np.array(floors))
-    panel.set_xlabel(AXES.get(along, along))
+    panel.set_xlabel(" or ".join(AXES.get(name, along) for name in chosen))
     panel.set_ylabel(", ".join(common.meaning(data, name) for name in chosen))
 
 
 def _maxwellian(panel, data: xr.Dataset, name: str, along: str) -> None:
     """That of the same integral and the same temperature."""
     x = data[along].values
-    width = x[1] - x[0]
     value = data[name].values.reshape(-1, len(x))[0]
     density = np.exp(-(x**2))
     if along == "speed_bin":  # ⟨C²⟩ = d/2 tells the dimension d
         d = round(2.0 * np.sum(value * x**2) / np.sum(value))
         density = density * x ** (d - 1)
     density *= np.sum(value) / np.sum(density)
-    assert width > 0
     panel.plot(x, density, "k--", lw=1, label="Maxwellian")
 
 
