@@ -28,7 +28,8 @@ _SCENES = {
 def _view(result):
     """What shows a scene: `generic` unless a module is there that finds all that it needs."""
     view = _SCENES.get(result.attrs.get("scene", ""), generic)
-    return view if view.NEEDS.issubset(map(str, result.series.data_vars)) else generic
+    there = {*map(str, result.series.data_vars), *map(str, result.steady.data_vars)}
+    return view if view.NEEDS.issubset(there) else generic
 
 
 def _page(result) -> Page:

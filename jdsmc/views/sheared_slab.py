@@ -89,8 +89,9 @@ def draw(result):
 def _profiles_in_time(panels, result) -> None:
     series = result.series
     reached = series["collisions"].values
-    for number, s in enumerate(s for s in INSTANTS if s <= reached[-1]):
-        here = series.isel(sample=int(np.argmin(np.abs(reached - s))))
+    nearest = {int(np.argmin(np.abs(reached - s))) for s in INSTANTS if s <= reached[-1]}
+    for number, sample in enumerate(sorted(nearest)):
+        here = series.isel(sample=sample)
         label = f"s = {float(here['collisions']):.2g}"
         _draw_profiles(panels, result, here, label, f"C{number}")
     _uniform_lines(panels, series)

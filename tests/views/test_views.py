@@ -277,4 +277,4 @@ def test_only_what_is_there():
 
 class _Named:
     def __init__(self, scene):
-        self.attrs, self.series = {"scene": scene}, xr.Dataset()
+        self.attrs, self.series, self.steady = {"scene": scene}, xr.Dataset(), xr.Dataset()
