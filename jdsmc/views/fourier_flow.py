@@ -90,8 +90,10 @@ def _conductivity(panel, steady: xr.Dataset, dims, x: str) -> None:
     values = steady[x].values
     for number, point in enumerate(common.points(steady, others)):
         row = [steady.isel(point | {x: k}) for k in range(len(values))]
-        found = [(one["kappa_star"], one["kappa_star_error"], halfway(one)) for one in row]
-        value, error = (np.array([float(f[i][f[2]]) for f in found]) for i in (0, 1))
+        value, error = (
+            np.array([float(one[key].values[halfway(one)]) for one in row])
+            for key in ("kappa_star", "kappa_star_error")
+        )
         pictures.bars(panel, values, value, error, number, common.label(steady, point))
     panel.set(xlabel=common.with_unit(steady, x), ylabel="κ* halfway, in mean free paths")
 

@@ -62,7 +62,7 @@ def _theory(alpha: float) -> generic.Theory:
 
     columns = {"first Sonine": cell(0), "modified": cell(1)}
     if alpha == 1:
-        columns["converged"] = lambda name, _: (
+        columns["converged"] = lambda name, index: (
             f"{elastic(name):.5g}" if name in COEFFICIENTS else ""
         )
     return columns

@@ -1,6 +1,5 @@
 """Figures, curves with bands, markers with bars, legends beside the data."""
 
-import io
 import re
 import textwrap
 from collections import Counter
@@ -8,8 +7,6 @@ from math import ceil
 
 import numpy as np
 import xarray as xr
-from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from . import common
 
@@ -17,21 +14,10 @@ MARKERS = "osD^vP"
 SPREAD = "bands and bars: two standard errors"
 
 
-class Picture(Figure):
-    """A figure that a notebook shows once.
-
-    pyplot keeps the figures that it makes, and in a notebook shows them a second time. This one is
-    known to nobody else, and says itself how it looks.
-    """
-
-    def _repr_png_(self) -> bytes:
-        buffer = io.BytesIO()
-        self.savefig(buffer, format="png", dpi=100)
-        return buffer.getvalue()
-
-
 def grid(number: int, columns: int = 0, width: float = 4.2, height: float = 3.1):
     """A figure and `number` panels in rows of `columns`; 1 to 3 of them unless said."""
+    from .figure import Picture  # noqa: PLC0415 - slow to import
+
     columns = columns or (1 if number == 1 else 2 if number <= 4 else 3)
     rows = ceil(number / columns)
     if columns == 1:
@@ -43,7 +29,7 @@ def grid(number: int, columns: int = 0, width: float = 4.2, height: float = 3.1)
     return figure, panels[:number]
 
 
-def finish(figure: Figure, panels, title: str, spread: str = SPREAD) -> Figure:
+def finish(figure, panels, title: str, spread: str = SPREAD):
     """Title and legends: what several panels share below them, the rest above its panel."""
     width = figure.get_figwidth()
     lines = [line for text in (title, spread) for line in _wrapped(text, int(11.5 * width))]
@@ -204,6 +190,6 @@ def readable_log(panel, values) -> None:
         return
     panel.set_yscale("log")
     if np.max(known) < 500 * np.min(known):
-        panel.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        panel.yaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
-        panel.yaxis.set_minor_formatter(NullFormatter())
+        from .figure import plain_numbers  # noqa: PLC0415 - slow to import
+
+        plain_numbers(panel.yaxis)

@@ -13,7 +13,7 @@ PANELS = ("reduced_shear_rate", "reduced_viscosity", *STRESSES, "a2", "a3")
 MODEL = (*PANELS, "temperature", "first_viscometric", "second_viscometric")
 """What the model has a steady value of."""
 NEEDS = {*SWEEP, *PANELS, "collisions"}
-STYLES = dict(zip(STRESSES, ("-", "--", "-."), strict=True))
+STYLES: dict[str, str] = dict(zip(STRESSES, ("-", "--", "-."), strict=True))
 
 
 def has_theory(attrs: dict) -> bool:
@@ -119,7 +119,8 @@ def _model_velocities(panels, result, here: xr.Dataset) -> None:
         return
     alpha = float(common.parameter(result, here, "restitution"))
     along_x, speed = panels
-    c = np.linspace(*along_x.get_xlim(), 201)
+    low, high = along_x.get_xlim()
+    c = np.linspace(low, high, 201)
     text = "BGK model"
     along_x.plot(c, bgk_shear_flow.marginal_x(alpha, c), "k:", lw=1.2, label=text)
     c = np.linspace(0.05, speed.get_xlim()[1], 60)
