@@ -61,7 +61,8 @@ def finish(figure, panels, title: str, spread: str = SPREAD):
 def _wrapped(text: str, width: int) -> list[str]:
     """Lines that end after a comma where they can."""
     kept = re.sub(r"(?<![,;:]) ", "\N{NO-BREAK SPACE}", text)
-    return textwrap.wrap(kept, width, break_long_words=True)
+    lines = textwrap.wrap(kept, width)
+    return [line.replace("\N{NO-BREAK SPACE}", " ") for line in lines]
 
 
 def pretty(text: str) -> str:
