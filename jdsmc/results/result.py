@@ -3,6 +3,7 @@
 import json
 import sys
 from collections.abc import Iterator
+from html import escape
 from pathlib import Path
 
 import numpy as np
@@ -155,6 +156,9 @@ class Result:
 
     def __repr__(self) -> str:
         return f"<jdsmc.Result {self.attrs.get('scene', '')}>\n{self.table()}"
+
+    def _repr_html_(self) -> str:
+        return f"<b>{escape(str(self.attrs.get('scene', '')))}</b>{views.html(self)}"
 
 
 def _built(data, classes: tuple[type, ...]):
