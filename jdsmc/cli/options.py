@@ -1,0 +1,183 @@
+"""Options of the command line: one for every field of a scene and its gases, and those of a run."""
+
+import dataclasses
+import inspect
+import typing
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from ..running.run import run
+from .numbers import numbers, one_number, truth, whole
+
+UNSET = dataclasses.MISSING
+
+
+@dataclass(frozen=True)
+class Option:
+    """What can be said as `--flag TEXT`.
+
+    `name`: of the field or argument; `read`: from the name and the text to the value; `default`:
+    UNSET if it must be given, a function of the relative error asked where it depends on that.
+    """
+
+    flag: str
+    name: str
+    meaning: str
+    read: Callable[[str, str], Any]
+    default: Any = UNSET
+    metavar: str = "NUMBER"
+
+    @property
+    def help(self) -> str:
+        """Meaning and default."""
+        if self.default is UNSET:
+            return f"{self.meaning} (must be given)"
+        if self.default is None:
+            return self.meaning
+        if callable(self.default):
+            return f"{self.meaning} (default: what --rtol needs)"
+        default = self.default
+        return f"{self.meaning} (default: {default if isinstance(default, str) else f'{default:g}'})"
+
+    def value(self, text: str | None, rtol: float | None) -> Any:
+        """What was said, or the default; ValueError for a text that means nothing."""
+        if text is not None:
+            return self.read(self.name, text)
+        if self.default is UNSET:
+            raise ValueError(f"--{self.flag} must be given: {self.meaning}.")
+        return self.default(rtol) if callable(self.default) else self.default
+
+
+def options_of(kind: type, fixed: dict[str, Any], taken: set[str], prefix: str) -> list[Option]:
+    """An option for every field of a scene or gas that is a number, a choice or a count.
+
+    Arguments: `fixed`, fields that are known; `taken`, flags that mean something else already:
+    a field of that name gets a `prefix`.
+    """
+    hints = _hints(kind)
+    found = []
+    for field in dataclasses.fields(kind):
+        if not field.init or field.name in fixed or field.name == "gas":
+            continue
+        flag = field.name.replace("_", "-")
+        flag = f"{prefix}-{flag}" if flag in taken else flag
+        option = _option(flag, field, hints.get(field.name, Any))
+        if option is not None:
+            found.append(option)
+        elif field.default is UNSET and field.default_factory is UNSET:
+            raise ValueError(
+                f"{kind.__name__} cannot be made on the command line: {field.name} is no number, "
+                "choice or count; give it a default, or use Python."
+            )
+    return found
+
+
+def _hints(kind: type) -> dict[str, Any]:
+    try:
+        return typing.get_type_hints(kind)
+    except NameError:  # annotations of names that only a type checker knows
+        return {}
+
+
+def _option(flag: str, field: dataclasses.Field, hint: Any) -> Option | None:
+    """The option of a field; None for what cannot be written as a text."""
+    facts = field.metadata
+    meaning = facts.get("meaning", field.name.replace("_", " "))
+    default = facts.get("example")
+    default = field.default if default is None else default
+    if isinstance(default, np.ndarray):
+        default = default.tolist() if default.ndim else float(default)
+    choices = facts.get("choices") or (typing.get_args(hint) if _is_literal(hint) else ())
+    make = {"flag": flag, "name": field.name, "default": default}
+    if choices:
+        return Option(
+            **make, meaning=f"{meaning}: {', '.join(choices)}", read=_text, metavar="NAME"
+        )
+    if hint is bool or isinstance(default, bool):
+        make["default"] = "yes" if default is True else default
+        make["default"] = "no" if default is False else make["default"]
+        return Option(**make, meaning=f"{meaning}: yes or no", read=_truth, metavar="yes|no")
+    if "least" in facts or hint is int:
+        least = f", at least {facts['least']}" if "least" in facts else ""
+        return Option(**make, meaning=meaning + least, read=whole)
+    if hint is str:
+        return Option(**make, meaning=meaning, read=_text, metavar="TEXT")
+    if facts.get("static") and hint is float:
+        return Option(**make, meaning=meaning, read=one_number)
+    if "range" in facts or hint in (float, Any):
+        names = facts.get("names", ())
+        return Option(
+            **make,
+            meaning=_with_unit(meaning, facts, names),
+            read=lambda name, text: numbers(name, text, names),
+            metavar="NUMBER[S]",
+        )
+    return None
+
+
+def _is_literal(hint: Any) -> bool:
+    return typing.get_origin(hint) is Literal
+
+
+def _text(name: str, text: str) -> str:
+    return text
+
+
+def _truth(name: str, text: str) -> bool:
+    return truth(name, text)
+
+
+def _with_unit(meaning: str, facts, names: tuple[str, ...]) -> str:
+    """Meaning, unit, interval and names of a number."""
+    unit = facts.get("unit", "1")
+    text = meaning if unit == "1" else f"{meaning} in {unit}"
+    if "range" in facts:
+        ends = facts["range"]
+        left = "[" if ends["low_included"] and np.isfinite(ends["low"]) else "("
+        right = "]" if ends["high_included"] and np.isfinite(ends["high"]) else ")"
+        text += f"; in {left}{ends['low']:g}, {ends['high']:g}{right}"
+    return text + (f", or {', '.join(names)}" if names else "")
+
+
+def _several(name: str, text: str) -> str | tuple[str, ...]:
+    return tuple(text.split(",")) if "," in text else text
+
+
+def run_options(taken: set[str], default_rtol: float, particles: str) -> list[Option]:
+    """The options of `jdsmc.run`, but for those that a field of the scene has the name of.
+
+    Arguments: the flags taken; the relative error that the scene asks if nothing is said; a clause
+    that tells how many particles it takes.
+    """
+    usual = {name: one.default for name, one in inspect.signature(run).parameters.items()}
+    table = (
+        ("particles", "n_particles", whole, f"particles of one realization {particles}"),
+        ("realizations", "n_realizations", whole, "independent realizations: all error bars"),
+        ("seed", "seed", whole, "seed of all random numbers"),
+        ("duration", "duration", one_number, "time to simulate in τ0; if neither this nor "
+         "--collisions is given, run until steady and precise"),
+        ("collisions", "collisions", one_number, "time in accepted collisions per particle"),
+        ("observable", "observable", _several, "observable (or several, a,b) whose precision ends "
+         "the run; by default the main one of the scene"),
+        ("rtol", "rtol", one_number, "relative standard error asked of that observable "
+         f"(default: {default_rtol:g})"),
+        ("budget", "budget", one_number, "most collisions per particle to spend"),
+        ("time-step", "time_step", one_number, "largest time step, as a fraction of τ(T) and of "
+         "the scene's own times, in (0, 1]"),
+        ("splitting", "splitting", _text, "order of flow and collisions in a step: strang "
+         "(second order) or lie (first, as in the papers)"),
+        ("dtype", "dtype", _text, "precision of the velocities: float32 or float64"),
+        ("steps-per-record", "steps_per_record", whole, "time steps between two measurements"),
+    )  # fmt: skip
+    return [
+        Option(flag, name, meaning, read, usual[name], _metavar(read))
+        for flag, name, read, meaning in table
+        if flag not in taken
+    ]
+
+
+def _metavar(read) -> str:
+    return "NAME" if read in (_text, _several) else "NUMBER"
