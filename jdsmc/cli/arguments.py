@@ -83,6 +83,13 @@ class Arguments:
         made = {gas.name: self.make(gas, given, rtol) for gas in self.gases}
         if not several and (len(made) > 1 or any(map(sweep.swept_paths, made.values()))):
             raise ValueError("several values were given; use `jdsmc sweep` for ranges and lists.")
+        swept = {name: tuple(sweep.dimensions(scene)) for name, scene in made.items()}
+        if len(set(swept.values())) > 1:
+            each = "; ".join(f"{name}: {', '.join(of) or 'nothing'}" for name, of in swept.items())
+            raise ValueError(
+                f"gases side by side must be swept over the same numbers, here {each}; "
+                "sweep them one by one."
+            )
         return Asked(made, arguments, given.get("out"), given.get("plot"))
 
     def make(self, gas: Gas, given: dict[str, str], rtol: float) -> AbstractScene:
@@ -143,12 +150,13 @@ class Arguments:
         return parser
 
     def add_gases(self, group) -> None:
-        """`--gas`, and the options of all gases, each once, with the names of those that have it."""
+        """`--gas`, and the options of all gases, each once, with the names of its owners."""
         names = "; ".join(f"{name}: {gas.meaning}" for name, gas in self.known.items())
         group.add_argument(
             "--gas",
             metavar="NAME[S]",
-            help=f"{names}; or module:Class of your own; sweeps take a list (default: {self.usual_gas})",
+            help=f"{names}; or module:Class of your own; sweeps take a list "
+            f"(default: {self.usual_gas})",
         )
         owners: dict[str, list[str]] = {}
         shown: dict[str, Option] = {}

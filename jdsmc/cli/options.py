@@ -5,10 +5,12 @@ import inspect
 import typing
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
 
+from ..fields import given
 from ..running.run import run
 from .numbers import numbers, one_number, truth, whole
 
@@ -40,7 +42,9 @@ class Option:
         if callable(self.default):
             return f"{self.meaning} (default: what --rtol needs)"
         default = self.default
-        return f"{self.meaning} (default: {default if isinstance(default, str) else f'{default:g}'})"
+        return (
+            f"{self.meaning} (default: {default if isinstance(default, str) else f'{default:g}'})"
+        )
 
     def value(self, text: str | None, rtol: float | None) -> Any:
         """What was said, or the default; ValueError for a text that means nothing."""
@@ -51,6 +55,12 @@ class Option:
         return self.default(rtol) if callable(self.default) else self.default
 
 
+def _shown(value: Any) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return f"{value:g}" if isinstance(value, int | float) else str(value)
+
+
 def options_of(kind: type, fixed: dict[str, Any], taken: set[str], prefix: str) -> list[Option]:
     """An option for every field of a scene or gas that is a number, a choice or a count.
 
@@ -59,7 +69,7 @@ def options_of(kind: type, fixed: dict[str, Any], taken: set[str], prefix: str) 
     """
     hints = _hints(kind)
     found = []
-    for field in dataclasses.fields(kind):
+    for field in given(kind):
         if not field.init or field.name in fixed or field.name == "gas":
             continue
         flag = field.name.replace("_", "-")
@@ -86,36 +96,32 @@ def _option(flag: str, field: dataclasses.Field, hint: Any) -> Option | None:
     """The option of a field; None for what cannot be written as a text."""
     facts = field.metadata
     meaning = facts.get("meaning", field.name.replace("_", " "))
-    default = facts.get("example")
-    default = field.default if default is None else default
-    if isinstance(default, np.ndarray):
-        default = default.tolist() if default.ndim else float(default)
+    default = _default(field)
     choices = facts.get("choices") or (typing.get_args(hint) if _is_literal(hint) else ())
-    make = {"flag": flag, "name": field.name, "default": default}
     if choices:
-        return Option(
-            **make, meaning=f"{meaning}: {', '.join(choices)}", read=_text, metavar="NAME"
-        )
-    if hint is bool or isinstance(default, bool):
-        make["default"] = "yes" if default is True else default
-        make["default"] = "no" if default is False else make["default"]
-        return Option(**make, meaning=f"{meaning}: yes or no", read=_truth, metavar="yes|no")
-    if "least" in facts or hint is int:
+        said = f"{meaning}: {', '.join(choices)}", _text, "NAME"
+    elif hint is bool or isinstance(default, bool):
+        said = f"{meaning}: yes or no", truth, "yes|no"
+    elif "least" in facts or hint is int:
         least = f", at least {facts['least']}" if "least" in facts else ""
-        return Option(**make, meaning=meaning + least, read=whole)
-    if hint is str:
-        return Option(**make, meaning=meaning, read=_text, metavar="TEXT")
-    if facts.get("static") and hint is float:
-        return Option(**make, meaning=meaning, read=one_number)
-    if "range" in facts or hint in (float, Any):
+        said = meaning + least, whole, "NUMBER"
+    elif hint is str:
+        said = meaning, _text, "TEXT"
+    elif facts.get("static") and hint is float:
+        said = _with_unit(meaning, facts, ()), one_number, "NUMBER"
+    elif "range" in facts or hint in (float, Any):
         names = facts.get("names", ())
-        return Option(
-            **make,
-            meaning=_with_unit(meaning, facts, names),
-            read=lambda name, text: numbers(name, text, names),
-            metavar="NUMBER[S]",
-        )
-    return None
+        said = _with_unit(meaning, facts, names), partial(numbers, names=names), "NUMBER[S]"
+    else:
+        return None
+    return Option(flag, field.name, *said[:2], default, said[2])
+
+
+def _default(field: dataclasses.Field) -> Any:
+    """What is taken if nothing is said: the example of the field, or its default."""
+    example = field.metadata.get("example")
+    default = field.default if example is None else example
+    return np.asarray(default).tolist() if isinstance(default, np.ndarray) else default
 
 
 def _is_literal(hint: Any) -> bool:
@@ -124,10 +130,6 @@ def _is_literal(hint: Any) -> bool:
 
 def _text(name: str, text: str) -> str:
     return text
-
-
-def _truth(name: str, text: str) -> bool:
-    return truth(name, text)
 
 
 def _with_unit(meaning: str, facts, names: tuple[str, ...]) -> str:
