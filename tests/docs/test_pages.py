@@ -73,8 +73,8 @@ def test_own_scene(folder, capsys):
     theory = names["theory"]
     # 5 standard errors, of t distributions with 7 degrees of freedom (chance 0.2% each), and the
     # 4% by which the linear theory was found off in published simulations of this gas
-    for alpha, result in ((0.5, names["result"]), (0.9, names["sweep"].at(restitution=0.9))):
+    for alpha, result in ((0.5, names["result"]), (0.8, names["sweep"].at(restitution=0.8))):
         found, wanted = result["a2"], theory(alpha)
-        assert found.error < 0.1 * abs(wanted)
+        assert found.error < 0.15 * abs(wanted)
         assert abs(found.value - wanted) < 5 * found.error + 0.04 * abs(wanted)
-    assert theory(0.3) > theory(0.5) > 0 > theory(0.9)
+    assert theory(0.3) > theory(0.5) > 0 > theory(0.8)
