@@ -8,7 +8,7 @@ from ..measure.observable import CLOCKS, COLLISION_RATIO, COLLISIONS, TIME, Obse
 from ..results.result import Result
 from ..scenarios.base import AbstractScene
 from ..stats import jackknife
-from .estimates import reported, steady_estimates
+from .estimates import against_time, steady_estimates
 from .history import History
 from .provenance import provenance, run_name
 
@@ -101,6 +101,11 @@ def assemble(scene: AbstractScene, history: History, tracker, session, attrs: di
         )
         if scene.sampled:
             groups["/distribution"] = _distribution(scene, labels, history, starts, options.records)
+        remarks = {
+            one.remarks(history.records(p, starts[p], history.length))
+            for p, one in enumerate(history.scenes)
+        }
+        attrs = attrs | {"remarks": " ".join(sorted(remarks - {""}))}
     root.attrs = provenance(scene, options) | attrs
     root.attrs["swept"] = " ".join(labels.dims)
     root.attrs["run"] = run_name(scene, options, attrs["seed"], history.length)
@@ -133,7 +138,7 @@ def _one_series(history: History, point: int) -> dict[str, np.ndarray]:
     one = history.scenes[point]
 
     def observables(averages):
-        found = reported(one, averages, evolving=True)
+        found = against_time(one, averages)
         found[COLLISIONS.name] = averages["collisions"]
         if "local_collisions" in averages:
             with np.errstate(divide="ignore", invalid="ignore"):

@@ -6,7 +6,7 @@ from .. import check, sweep
 from ..errors import FaultError, NotSteadyError
 from ..results.result import Result
 from ..scenarios.base import AbstractScene
-from ..scenarios.options import STEPS_PER_RECORD, TIME_STEP, Options
+from ..scenarios.options import Options
 from .assemble import assemble
 from .limits import Limits
 from .progress import interruptible, progress_bar
@@ -27,10 +27,10 @@ def run(
     observable: str | tuple[str, ...] | None = None,
     rtol: float | None = None,
     budget: float = 5_000.0,
-    time_step: float = TIME_STEP,
+    time_step: float | None = None,
     splitting: Literal["strang", "lie"] = "strang",
     dtype: Literal["float32", "float64"] = "float32",
-    steps_per_record: int = STEPS_PER_RECORD,
+    steps_per_record: int | None = None,
     progress: bool = True,
 ) -> Result:
     """Simulate a scene and return labelled results with error bars.
@@ -52,12 +52,13 @@ def run(
         observable, rtol: the precision asked for; by default of the scene's main observables, and
             0.001 for most scenes.
         budget: most collisions per particle to spend.
-        time_step: largest time step in (0, 1], as a fraction of τ(T) and of the scene's own times
-            (1/shear_rate) in homogeneous gases and sheared slabs, of τ0 in a Fourier flow; it is
-            shortened so that no pair is likelier to collide than the pair selection allows.
+        time_step: largest time step in (0, 1], 0.05 for most scenes, as a fraction of τ(T) and of
+            the scene's own times (1/shear_rate) in homogeneous gases and sheared slabs, of τ0 in a
+            Fourier flow; it is shortened so that no pair is likelier to collide than the pair
+            selection allows.
         splitting: "strang" (second order) or "lie" (first order, as in the papers).
         dtype: "float32", or "float64" with JAX's x64 mode enabled.
-        steps_per_record: time steps between two measurements.
+        steps_per_record: time steps between two measurements, 16 for most scenes.
         progress: show a progress bar.
     Raises:
         ValueError, TypeError: bad input, before anything is computed.
@@ -90,7 +91,7 @@ def scenes_of(scene) -> list[AbstractScene]:
         )
     if not isinstance(scene, AbstractScene):
         raise TypeError(f"scene must be one of jdsmc.scenarios or derive from them, got {scene!r}.")
-    return sweep.points(scene)[0]
+    return [one.prepared() for one in sweep.points(scene)[0]]
 
 
 def options_of(scenes, n_particles, time_step, splitting, dtype, steps_per_record) -> Options:
@@ -98,7 +99,9 @@ def options_of(scenes, n_particles, time_step, splitting, dtype, steps_per_recor
     scene = scenes[0]
     options = Options.checked(
         scene.default_particles() if n_particles is None else n_particles,
-        *(time_step, splitting, dtype, steps_per_record),
+        scene.default_time_step if time_step is None else time_step,
+        *(splitting, dtype),
+        scene.default_steps if steps_per_record is None else steps_per_record,
         samples=scene.samples_per_record,
         in_space=scene.in_space,
     )

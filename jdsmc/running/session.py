@@ -26,7 +26,9 @@ class Session:
         self.options, self.limits = options, limits
         self.engine = kind(scenes, n_realizations, seed, options)
         self.history = History(scenes, options.n_particles, options.steps)
-        self.tracker = tracker_for(limits.approaches, scenes[0].monitored, steady_changes)
+        drift = None if scenes[0].correlated else steady_changes
+        self.correlated = scenes[0].correlated
+        self.tracker = tracker_for(limits.approaches, scenes[0].monitored, drift)
         self.precision = np.inf
         self.failed = self._settled = False
         self._asked_at = -1
@@ -52,7 +54,7 @@ class Session:
         if limits.fixed:
             return "the asked time was simulated" if self.progress() >= 1.0 else ""
         if self.tracker.all_measuring and self.spent >= self._next_look:
-            self._next_look = 1.05 * self.spent
+            self._next_look = (1.2 if self.correlated else 1.05) * self.spent
             if self._precise() and self.is_settled() and self._precise():
                 return f"{limits.named} is known to {self.precision:.2g} (asked {limits.rtol:g})"
         if limits.records is not None and self.history.length >= limits.records:
@@ -109,7 +111,7 @@ class Session:
         first, last = self.tracker.start[point], self.history.length
         value, error, _ = steady_estimates(self.history, point, first)
         block_error = error
-        if self.limits.records is None:
+        if self.limits.records is None and not self.correlated:
             if last - first < 2 * BLOCKS:
                 return np.inf
             edges = np.linspace(first, last, BLOCKS + 1).astype(int)

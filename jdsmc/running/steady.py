@@ -163,13 +163,16 @@ class SteadyTracker:
         edges = np.linspace(first, history.length, BLOCKS + 1).astype(int)
         if np.min(np.diff(edges)) < 1:
             return False
-        blocks = [history.point(point, a, b) for a, b in pairwise(edges)]
+        blocks = [history.monitored(point, a, b, self.monitored) for a, b in pairwise(edges)]
         series = (np.stack([b[name] for b in blocks], axis=1) for name in self.monitored)
         return all(variogram_ratio(values) < CORRELATED for values in series)
 
     def _significance(self, history: History, point: int, first, middle, last) -> float:
         """Smallest significance of a drift of the monitored moments between two windows."""
-        early, late = history.point(point, first, middle), history.point(point, middle, last)
+        early, late = (
+            history.monitored(point, a, b, self.monitored)
+            for a, b in ((first, middle), (middle, last))
+        )
         return min(float(drift_significance(early[n], late[n])) for n in self.monitored)
 
     @property

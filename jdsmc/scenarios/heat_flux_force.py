@@ -82,7 +82,7 @@ class HeatFluxForce(AbstractHomogeneous):
     )
     exponent: float | None = derived()
 
-    def __init__(self, gas, field, scheme="exact"):
+    def __init__(self, gas: AbstractGas, field, scheme: Literal["exact", "paper"] = "exact"):
         self.gas, self.field, self.scheme = gas, field, scheme
         self.exponent = scaling_exponent(gas)
 

@@ -154,18 +154,10 @@ class ShearedSlab(AbstractSlab):
         self, key: Key, layer: Layer, velocity: Velocities, duration: Scalar, options: Options
     ) -> tuple[Velocities, Collisions, Scalar]:
         """Collisions within the layers, and for a frictional gas the drag around them."""
-        if isinstance(self.gas, ElasticHardSpheres):
-            return self.collide_with_drag(key, layer, velocity, duration, options)
-        return super().collide(key, layer, velocity, duration, options)
-
-    def collide_with_drag(
-        self, key: Key, layer: Layer, velocity: Velocities, duration: Scalar, options: Options
-    ) -> tuple[Velocities, Collisions, Scalar]:
-        """Drag for a share of the time before the collisions and a share after.
-
-        Elastic collisions change neither flow nor temperature of a layer, and drag only its
-        temperature: what the layers are like is needed once.
-        """
+        if not isinstance(self.gas, ElasticHardSpheres):
+            return super().collide(key, layer, velocity, duration, options)
+        # Elastic collisions change neither flow nor temperature of a layer, and drag only its
+        # temperature: what the layers are like is needed once.
         before, after = options.halves
         flow = LayerFlow.of(layer, velocity, self.layers)
         rate = friction(self.gas, flow)
