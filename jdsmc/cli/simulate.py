@@ -5,7 +5,8 @@ import jax
 from .. import sweep
 from ..errors import FaultError
 from ..results.result import Result
-from ..running.run import run
+from ..running.limits import Limits
+from ..running.run import options_of, run, scenes_of
 from .arguments import Arguments, Asked
 from .catalogue import find_scene
 from .keep import check_files, keep
@@ -24,6 +25,10 @@ def simulate(command: str, name: str, words: list[str]) -> int:
     several = command == "sweep"
     asked = arguments.read(several)
     check_files(asked.out, asked.plot)
+    if asked.run.get("dtype") == "float64":
+        jax.config.update("jax_enable_x64", True)
+    for scene in asked.scenes.values():
+        check_run(scene, **asked.run)
     results: dict[str, Result] = {}
     status = 0
     try:
@@ -40,10 +45,18 @@ def simulate(command: str, name: str, words: list[str]) -> int:
     return status
 
 
+def check_run(
+    scene, *, n_particles, time_step, splitting, dtype, steps_per_record, **limits
+) -> None:
+    """What `jdsmc.run` checks first, so that the last gas is refused before the first one runs."""
+    scenes = scenes_of(scene)
+    options_of(scenes, n_particles, time_step, splitting, dtype, steps_per_record)
+    names = ("duration", "collisions", "observable", "rtol", "budget")
+    Limits(scenes, **{name: limits[name] for name in names if name in limits})
+
+
 def run_all(asked: Asked, results: dict[str, Result], *, count_points: bool) -> None:
     """Fill in the result of every gas, one after the other, until one is interrupted."""
-    if asked.run.get("dtype") == "float64":
-        jax.config.update("jax_enable_x64", True)
     for name, scene in asked.scenes.items():
         if count_points:
             print(f"{name}: {len(sweep.points(scene)[0])} points")

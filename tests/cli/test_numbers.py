@@ -50,7 +50,7 @@ def test_a_range_in_the_wrong_direction():
 
 def test_names_in_place_of_numbers():
     assert numbers("rate_factor", "linear", ("linear", "viscosity")) == "linear"
-    with pytest.raises(ValueError, match="rate_factor = 'cubic' .* or one of linear, viscosity"):
+    with pytest.raises(ValueError, match=r"rate_factor = 'cubic' .* or one of linear, viscosity"):
         numbers("rate_factor", "cubic", ("linear", "viscosity"))
 
 
@@ -63,7 +63,7 @@ def test_whole(text, value):
 
 @pytest.mark.parametrize("text", ["1000.5", "inf", "nan", "many", ""])
 def test_what_is_not_whole(text):
-    with pytest.raises(ValueError, match="particles = .* is not a"):
+    with pytest.raises(ValueError, match=r"particles = .* is not a"):
         whole("particles", text)
 
 

@@ -14,7 +14,7 @@ class Still(AbstractHomogeneous):
     """Nothing happens."""
 
     gas: jdsmc.AbstractGas
-    depth: Any = jdsmc.number("depth h", "λ0", low=0.0)
+    depth: Any = jdsmc.number("depth h", "λ0", low=0.0, high=9.0)
     levels: int = jdsmc.count("levels", default=3)
     duration: Any = jdsmc.number("how long it was still", "τ0", default=1.0)
     plain: float = 2.0
@@ -72,7 +72,7 @@ def test_help(status, capsys):
     assert status("run mine:Still --gas mine:Soft --help") == 0
     text = " ".join(capsys.readouterr().out.split())
     assert "Nothing happens." in text
-    assert "--depth NUMBER[S] depth h in λ0; in [0, inf) (must be given)" in text
+    assert "--depth NUMBER[S] depth h in λ0; in [0, 9] (must be given)" in text
     assert "--levels NUMBER levels, at least 1 (default: 3)" in text
     assert "Soft: softness s; in [0, 1] (must be given)" in text
 
@@ -81,7 +81,7 @@ def test_help(status, capsys):
     "line, words",
     [
         ("run mine:Still", "--depth must be given: depth h in λ0"),
-        ("run mine:Still --depth -1", "depth = -1 [0, inf)"),
+        ("run mine:Still --depth -1", "depth = -1 [0, 9]"),
         ("run mine:Stil --depth 1", "mine has no scene 'Stil' Still"),
         ("run mine:Soft", "mine has no scene 'Soft'"),
         ("run shear --gas mine:Still", "mine has no gas 'Still' Soft"),
