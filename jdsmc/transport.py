@@ -73,7 +73,7 @@ def navier_stokes(
     scene = NavierStokes(gas, strength, followed)
     scenes = scenes_of(scene)
     options = options_of(scenes, particles, time_step, "strang", "float32", STEPS_PER_RECORD)
-    limits = Limits(scenes, rtol=rtol or 1e-9, budget=1e12, records=kicks)
+    limits = Limits(scenes, options, rtol=rtol or 1e-9, budget=1e12, records=kicks)
     return with_lag_as_series(
         simulate(
             *(scene, scenes, options, limits),

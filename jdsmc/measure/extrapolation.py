@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..check import at_least
+from ..check import whole
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ def extrapolate(numbers, values, errors, order: int = 1) -> Extrapolation:
         order: of the polynomial in 1/N.
     The errors are taken as they are: the error of the limit is not scaled by chi squared.
     """
-    at_least("order", order, 0)
+    order = whole("order", order, 0)
     numbers, values, errors = (np.asarray(x, dtype=float) for x in (numbers, values, errors))
     if numbers.ndim != 1 or numbers.shape != values.shape or numbers.shape != errors.shape:
         raise ValueError("numbers, values and errors must be lists of the same length.")

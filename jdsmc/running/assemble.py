@@ -7,6 +7,7 @@ from .. import sweep
 from ..measure.observable import CLOCKS, COLLISION_RATIO, COLLISIONS, TIME, Observable
 from ..results.result import Result
 from ..scenarios.base import AbstractScene
+from ..scenarios.options import Options
 from ..stats import jackknife
 from .estimates import against_time, steady_estimates
 from .history import History
@@ -21,7 +22,7 @@ STEADY_FROM = (
 class Labels:
     """Dimensions and coordinates of a sweep, and of what its scenes report beside it."""
 
-    def __init__(self, scene: AbstractScene, scenes: list[AbstractScene]):
+    def __init__(self, scene: AbstractScene, scenes: list[AbstractScene], options: Options):
         self.coords = {}
         facts = {short: sweep.facts(scene, path) for path, short in sweep.labels(scene).items()}
         for name, values in sweep.dimensions(scene).items():
@@ -31,7 +32,7 @@ class Labels:
             self.coords[name] = (along, values, described)
         self.dims = tuple(self.coords)
         self.shape = tuple(len(values) for values in sweep.dimensions(scene).values())
-        self.axes = common_axes([one.axes() for one in scenes])
+        self.axes = common_axes([one.axes(options) for one in scenes])
 
     def dataset(self, columns: dict, observables, extra: tuple = ()) -> xr.Dataset:
         """Variables from arrays whose first axis is the sweep point, then `extra`, then their own.
@@ -76,10 +77,10 @@ def assemble(scene: AbstractScene, history: History, tracker, session, attrs: di
     Arguments: the scene as the user made it; the history; the tracker, or None where steady
     values make no sense; the session; attributes that tell how the run ended.
     """
-    labels = Labels(scene, history.scenes)
+    options = session.options
+    labels = Labels(scene, history.scenes, options)
     groups = {"/series": _series(scene, labels, history)}
     root = xr.Dataset(coords=labels.coords)
-    options = session.options
     points = range(len(history.scenes))
     if tracker is not None and history.length and _measured(tracker, history, options.records):
         starts = tracker.start
@@ -102,7 +103,7 @@ def assemble(scene: AbstractScene, history: History, tracker, session, attrs: di
         if scene.sampled:
             groups["/distribution"] = _distribution(scene, labels, history, starts, options.records)
         remarks = {
-            one.remarks(history.records(p, starts[p], history.length))
+            one.remarks(*history.window(p, starts[p], history.length))
             for p, one in enumerate(history.scenes)
         }
         attrs = attrs | {"remarks": " ".join(sorted(remarks - {""}))}

@@ -77,8 +77,13 @@ class History:
         Averages over particles are weighted with the time their record stands for; `accepted` and
         `energy_lost` become rates per particle and time.
         """
-        elapsed = self["elapsed"][point, :, slice(first, last)]
-        return self.scenes[point].window(self.records(point, first, last), elapsed)
+        return self.scenes[point].window(*self.window(point, first, last))
+
+    def window(
+        self, point: int, first: int | np.integer, last: int | np.integer
+    ) -> tuple[dict[str, np.ndarray], np.ndarray]:
+        """Averages of each record of a window of one point, and how long the records lasted."""
+        return self.records(point, first, last), self["elapsed"][point, :, slice(first, last)]
 
     def records(
         self, point: int, first: int | np.integer, last: int | np.integer

@@ -70,8 +70,10 @@ def run(
     """
     scenes = scenes_of(scene)
     options = options_of(scenes, n_particles, time_step, splitting, dtype, steps_per_record)
+    scenes = [one.prepared() for one in scenes]
     limits = Limits(
         scenes,
+        options,
         duration=duration,
         collisions=collisions,
         observable=observable,
@@ -91,7 +93,7 @@ def scenes_of(scene) -> list[AbstractScene]:
         )
     if not isinstance(scene, AbstractScene):
         raise TypeError(f"scene must be one of jdsmc.scenarios or derive from them, got {scene!r}.")
-    return [one.prepared() for one in sweep.points(scene)[0]]
+    return sweep.points(scene)[0]
 
 
 def options_of(scenes, n_particles, time_step, splitting, dtype, steps_per_record) -> Options:
@@ -131,8 +133,9 @@ def simulate(
     session = Session(scenes, n_realizations, seed, options, limits)
     attrs = {"seed": seed, "n_realizations": n_realizations, **limits.attributes()}
 
-    def result(stopped: str) -> Result:
-        tracker = session.tracker if limits.can_be_steady and session.is_settled() else None
+    def result(stopped: str, whole: bool = True) -> Result:
+        steady = whole and limits.can_be_steady and session.is_settled()
+        tracker = session.tracker if steady else None
         return assemble(scene, session.history, tracker, session, attrs | {"stopped": stopped})
 
     try:
@@ -146,7 +149,7 @@ def simulate(
                     stopped = f"interrupted after {session.spent:.1f} collisions per particle"
     except FaultError as error:
         if session.history.length:
-            error.result = result(f"fault: {error}")
+            error.result = result(f"fault: {error}", whole=False)
         raise
     if session.failed:
         error = NotSteadyError(stopped)

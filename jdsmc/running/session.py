@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..errors import FaultError
 from ..scenarios.options import Options
 from . import faults
 from .engine import Engine
@@ -32,7 +33,7 @@ class Session:
         self.precision = np.inf
         self.failed = self._settled = False
         self._asked_at = -1
-        self._next_look = 0.0
+        self._next_look = self._next_check = 0.0
 
     def advance(self) -> None:
         """One chunk, its faults checked, and the steady state looked for."""
@@ -40,8 +41,19 @@ class Session:
         faults.check_record(self.history, record)
         self.history.append(record, sample)
         faults.check_collisions(self.history, record)
+        if self.history.length >= self._next_check:
+            self._next_check = 1.5 * self.history.length
+            self._look_for_trouble()
         if self.limits.can_be_steady:
             self.tracker.update(self.history)
+
+    def _look_for_trouble(self) -> None:
+        """Raise FaultError if a scene finds fault with the later half of the run so far."""
+        for point, scene in enumerate(self.history.scenes):
+            half = self.history.length // 2
+            trouble = scene.trouble(*self.history.window(point, half, self.history.length))
+            if trouble:
+                raise FaultError(trouble)
 
     @property
     def spent(self) -> float:

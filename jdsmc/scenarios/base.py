@@ -132,7 +132,7 @@ class AbstractScene(eqx.Module):
         """What to change where there is no steady state."""
         return "give duration or collisions"
 
-    def approach(self) -> Approach:
+    def approach(self, options: Options) -> Approach:
         """How fast a steady state is approached, as far as it is known beforehand."""
         return UNKNOWN
 
@@ -159,11 +159,12 @@ class AbstractScene(eqx.Module):
         """What is reported against time; by default all observables."""
         return self.observables(means)
 
-    def remarks(self, history: dict[str, np.ndarray]) -> str:
-        """A sentence that goes with the results, e.g. that a run was short; or none.
+    def trouble(self, series: dict[str, np.ndarray], weights: np.ndarray) -> str:
+        """A sentence if a whole run so far cannot be trusted (arguments as of `window`)."""
+        return ""
 
-        Argument: averages of every record of the measurement (realizations, records, ...).
-        """
+    def remarks(self, series: dict[str, np.ndarray], weights: np.ndarray) -> str:
+        """A sentence that goes with the results, or none (arguments as of `window`)."""
         return ""
 
     def window(self, series: dict[str, np.ndarray], weights: np.ndarray) -> dict[str, np.ndarray]:
@@ -178,7 +179,7 @@ class AbstractScene(eqx.Module):
         """Every name of `sampled` from the means of what `finish_chunk` sampled."""
         return sample
 
-    def axes(self) -> dict[str, Any]:
+    def axes(self, options: Options) -> dict[str, Any]:
         """Coordinates along every dimension of the observables: values, or (values, attributes)."""
         return {}
 

@@ -13,25 +13,26 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from .. import check
-from ..fields import number
-from ..gases import AbstractGas, InelasticHardDisks
-from ..measure.mode_series import block_means, mode_observables, remarks
+from ..gases import InelasticHardDisks
+from ..measure import modes
+from ..measure.mode_spectrum import Spectrum
 from ..measure.observable import Observable
+from ..measure.runaway import runs_away
 from ..theory import langevin
 from ..types import Scalar
 from ..units import INITIAL_TEMPERATURE
 from .approach import Approach
-from .base import AbstractScene, Record, weighted_means
+from .base import AbstractScene, Record
 from .options import Options
 
 LOWEST_RESTITUTION = 0.4
 """Below it the deterministic theory, which says what is stable, does not converge."""
 
-SPACING = 0.7
-"""Time between samples of the modes (τ0), 0.25/(nσ v0)."""
+SLOWEST_MODE = 5.0
+"""Decay times of the mode that are discarded, divided by the 3.6 slow times of any warm-up."""
 
-COLLISIONS_PER_TIME = 0.5 * math.sqrt(math.pi) / 2.0
-"""Pair collisions per particle and τ0 in equilibrium: half of 2√π nσ√(T/m) = 0.8862."""
+LAGS = 65
+"""Lags at which C(s) is reported, from 0 to five decay times."""
 
 LAG = ("lag",)
 OBSERVABLES = (
@@ -62,6 +63,12 @@ class DiskMoments(eqx.Module):
     modes: Float[Array, "4 2"]
     temperature: Scalar
     fourth: Scalar
+
+
+class DiskRecord(Record):
+    """One sample, what the steps after it did, and `counts`: real disks and simulated ones."""
+
+    counts: Float[Array, "2"]
 
 
 class AbstractCoolingDisks(AbstractScene):
@@ -120,35 +127,120 @@ class AbstractCoolingDisks(AbstractScene):
         """The deterministic theory of this system."""
         return langevin.transverse_mode(float(self.gas.restitution), n_real * float(self.density))
 
-    def approach(self) -> Approach:
-        """T~ comes to its fixed point at the rate μ; the mode decays at a rate that N decides.
-
-        N is not known here. Half way to the instability the mode is no slower than three times
-        T~; nearer to it, the tests for drift and the length of blocks take over.
-        """
+    def approach(self, options: Options) -> Approach:
+        """T~ comes to its fixed point at the rate μ, the mode to its amplitude at the rate 1/τ."""
+        per_time = float(self.gas.collision_rate(INITIAL_TEMPERATURE))
         growth = float(self.growth_rate)
-        slowest = 1.0 / max(growth, 0.01)
-        return Approach(2.0 * COLLISIONS_PER_TIME * max(slowest, 20.0))
+        slowest = SLOWEST_MODE / 3.6 / self.companion(options.n_particles).decay_rate
+        return Approach(per_time * max(slowest, 1.0 / growth if growth > 0 else 0.0))
 
-    def averages(self, record: Record) -> dict[str, np.ndarray]:
+    def axes(self, options: Options) -> dict:
+        """Lags of C(s): multiples of the time between samples."""
+        _, lags = self.lags(options.n_particles, options.steps * options.time_step)
+        return {"lag": (lags, {"long_name": "lag s", "units": "τ0"})}
+
+    def lags(self, n_real: int, spacing: float) -> tuple[int, np.ndarray]:
+        """Samples between two lags, and the lags (τ0)."""
+        wanted = 5.0 / self.companion(n_real).decay_rate / (LAGS - 1)
+        stride = max(1, math.ceil(wanted / spacing))
+        return stride, stride * spacing * np.arange(LAGS)
+
+    def averages(self, record: DiskRecord) -> dict[str, np.ndarray]:
         """Modes (complex) and moments of each sample."""
-        m = record.moments
-        heat = np.asarray(m.temperature)
-        modes = np.asarray(m.modes)
+        m: Any = record.moments
+        counts = np.asarray(record.counts)
         return {
-            "modes": modes[..., 0] + 1j * modes[..., 1],
-            "temperature": heat,
-            "fourth": np.asarray(m.fourth),
-            "instant_rate": self.gas.collision_rate(heat),
-            "real_particles": np.asarray(record.real_particles),
+            "modes": m.modes[..., 0] + 1j * m.modes[..., 1],
+            "temperature": m.temperature,
+            "square": m.temperature**2,
+            "fourth": m.fourth,
+            "instant_rate": self.gas.collision_rate(m.temperature),
+            "real": counts[..., 0],
+            "simulated": counts[..., 1],
         }
 
     def evolution(self, means: dict) -> dict:
-        """Temperature, a2 and the power of the slowest modes."""
+        """Temperature, a2 and rates against time, and the power of the slowest modes."""
+        norm = means["simulated"] * INITIAL_TEMPERATURE
+        return self.moments(means) | {
+            "mode_power": np.mean(np.abs(means["modes"][..., :2]) ** 2, axis=-1) / norm
+        }
+
+    def moments(self, means: dict) -> dict:
+        """T~, a2 and the rates."""
         heat = means["temperature"]
         return {
             "temperature": heat / INITIAL_TEMPERATURE,
-            "a2": means["fourth"] / (8.0 * heat**2) - 1.0,
+            "a2": means["fourth"] / (8.0 * means["square"]) - 1.0,
             "cooling_rate": means["energy_lost"] / heat,
             "collision_rate_ratio": means["accepted"] / means["instant_rate"],
         }
+
+    def window(self, series: dict[str, np.ndarray], weights: np.ndarray) -> dict[str, np.ndarray]:
+        """Averages of blocks of some 25 decay times: arrays (realizations x blocks, ...)."""
+        spacing = float(np.mean(weights))
+        means, plan = modes.block_means(_slowest(series), spacing, series["temperature"])
+        length, blocks = plan.spectrum.length, len(means["power"])
+        stride, _ = self.lags(int(np.mean(series["real"])), spacing)
+        correlation = np.full((blocks, LAGS), np.nan)
+        reached = min(LAGS, (means["correlation"].shape[1] - 1) // stride + 1)
+        correlation[:, :reached] = means["correlation"][:, : reached * stride : stride]
+        for name in ("square", "fourth", "energy_lost", "accepted", "instant_rate"):
+            means[name] = np.mean(modes.cut(series[name][:, None], length), axis=(1, 2))
+        fixed = {
+            "frequency": plan.spectrum.frequency,
+            "weight": plan.spectrum.weight,
+            "pooled": plan.pooled,
+            "sizes": np.array([length, spacing, plan.pace]),
+            "counts": np.array([np.mean(series["real"]), np.mean(series["simulated"])]),
+        }
+        repeated = {name: np.broadcast_to(v, (blocks, *v.shape)) for name, v in fixed.items()}
+        return means | {"correlation": correlation} | repeated
+
+    def observables(self, means: dict) -> dict:
+        """The mode's numbers by eqs. (9) to (11), refitted to the averages given; and moments."""
+        length, spacing, pace = means["sizes"]
+        spectrum = Spectrum(means["frequency"], means["weight"], round(length), spacing)
+        plan = modes.Plan(spectrum, pace, means["pooled"])
+        n_real, simulated = means["counts"]
+        wave_number = 2.0 * math.pi / self.side(n_real)
+        found = modes.mode_observables(means, plan, simulated, self.growth_rate, wave_number)
+        if modes.no_tail(plan.pooled):
+            found |= dict.fromkeys(modes.FITTED, np.nan)
+        return found | self.moments(means)
+
+    def trouble(self, series: dict[str, np.ndarray], weights: np.ndarray) -> str:
+        """A mode that grows without bound."""
+        spacing, simulated = float(np.mean(weights)), round(np.mean(series["simulated"]))
+        modes_now = _slowest(series)
+        if modes_now.shape[-1] * spacing < 20.0:
+            return ""
+        if not runs_away(modes_now, spacing, simulated, series["temperature"]):
+            return ""
+        limit = langevin.stability_limit(float(self.gas.restitution))
+        return (
+            "The slowest mode runs away: it grows without bound. This system is too near to its "
+            f"limit of stability, N n σ² = {limit:.4g}; take fewer particles."
+        )
+
+    def remarks(self, series: dict[str, np.ndarray], weights: np.ndarray) -> str:
+        """How long the run was against the decay of the mode, if it was short; its distance from
+        the limit of stability."""
+        spacing, simulated = float(np.mean(weights)), _slowest(series)
+        means, plan = modes.block_means(simulated, spacing, series["temperature"])
+        decay = float(np.exp(-plan.pooled[1]))
+        run = simulated.shape[0] * simulated.shape[2] * spacing / decay
+        block = plan.spectrum.length * spacing / decay
+        share = np.mean(series["real"]) * self.density
+        limit = langevin.stability_limit(float(self.gas.restitution))
+        place = f"N n σ² = {share:.4g}" + (
+            f", {1.0 - share / limit:.0%} below the limit of stability {limit:.4g}."
+            if math.isfinite(limit)
+            else "; an elastic gas is stable at any size."
+        )
+        return " ".join([place, *modes.doubts(run, block, len(means["power"]), plan.pooled)])
+
+
+def _slowest(series: dict[str, np.ndarray]) -> np.ndarray:
+    """The two modes of the smallest wave number: (realizations, modes, samples)."""
+    return np.swapaxes(series["modes"][..., :2], 1, 2)

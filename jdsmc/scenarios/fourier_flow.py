@@ -138,7 +138,7 @@ class FourierFlow(AbstractSlab):
             )
         return options
 
-    def approach(self) -> Approach:
+    def approach(self, options: Options) -> Approach:
         """Diffusion of heat across the slab."""
         return of_conduction(self.cold_temperature, self.gravity, self.length)
 

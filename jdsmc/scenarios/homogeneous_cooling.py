@@ -83,7 +83,7 @@ class HomogeneousCooling(AbstractHomogeneous):
         """A gas with a speed of its own changes for ever."""
         return "its gas has a speed of its own, so that it changes for ever; give duration"
 
-    def approach(self) -> Approach:
+    def approach(self, options: Options) -> Approach:
         """A few collisions per particle."""
         return UNKNOWN if self.exponent is None else VELOCITIES
 

@@ -121,7 +121,7 @@ class ShearedSlab(AbstractSlab):
         """What a steady state needs."""
         return "it needs shear_rate > 0 and a gas that loses energy; else give duration, collisions"
 
-    def approach(self) -> Approach:
+    def approach(self, options: Options) -> Approach:
         """That of the kinetic model, and diffusion across the slab."""
         return of_sheared_slab(self.gas, self.shear_rate, self.length)
 

@@ -82,7 +82,7 @@ class UniformShear(AbstractHomogeneous):
         """What a steady state needs."""
         return "it needs shear_rate > 0 and a gas that loses energy; else give duration, collisions"
 
-    def approach(self) -> Approach:
+    def approach(self, options: Options) -> Approach:
         """That of the kinetic model."""
         return of_sheared_gas(self.gas, self.shear_rate)
 

@@ -59,4 +59,4 @@ def test_bad_input():
     with pytest.raises(ValueError, match="positive"):
         extrapolate([1000, 2000], [1, 1], [0, 1], 1)
     with pytest.raises(TypeError, match="order"):
-        extrapolate([1000, 2000], [1, 1], [1, 1], 1.0)  # pyright: ignore[reportArgumentType]
+        extrapolate([1000, 2000], [1, 1], [1, 1], 1.5)  # pyright: ignore[reportArgumentType]
