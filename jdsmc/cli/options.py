@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from .. import check
 from ..fields import given
 from ..running.run import run
 from .numbers import numbers, one_number, truth, whole
@@ -99,7 +100,7 @@ def _option(flag: str, field: dataclasses.Field, hint: Any) -> Option | None:
     default = _default(field)
     choices = facts.get("choices") or (typing.get_args(hint) if _is_literal(hint) else ())
     if choices:
-        said = f"{meaning}: {', '.join(choices)}", _text, "NAME"
+        said = f"{meaning}: {', '.join(choices)}", partial(_chosen, choices=choices), "NAME"
     elif hint is bool or isinstance(default, bool):
         said = f"{meaning}: yes or no", truth, "yes|no"
     elif "least" in facts or hint is int:
@@ -129,6 +130,11 @@ def _is_literal(hint: Any) -> bool:
 
 
 def _text(name: str, text: str) -> str:
+    return text
+
+
+def _chosen(name: str, text: str, choices: tuple[str, ...]) -> str:
+    check.one_of(name, text, choices)
     return text
 
 

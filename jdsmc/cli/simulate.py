@@ -5,8 +5,7 @@ import jax
 from .. import sweep
 from ..errors import FaultError
 from ..results.result import Result
-from ..running.limits import Limits
-from ..running.run import options_of, run, scenes_of
+from ..running.run import run
 from .arguments import Arguments, Asked
 from .catalogue import find_scene
 from .keep import check_files, keep
@@ -27,8 +26,6 @@ def simulate(command: str, name: str, words: list[str]) -> int:
     check_files(asked.out, asked.plot)
     if asked.run.get("dtype") == "float64":
         jax.config.update("jax_enable_x64", True)
-    for scene in asked.scenes.values():
-        check_run(scene, **asked.run)
     results: dict[str, Result] = {}
     status = 0
     try:
@@ -43,16 +40,6 @@ def simulate(command: str, name: str, words: list[str]) -> int:
                 spare=f"jdsmc-{arguments.scene.__name__}",
             )
     return status
-
-
-def check_run(
-    scene, *, n_particles, time_step, splitting, dtype, steps_per_record, **limits
-) -> None:
-    """What `jdsmc.run` checks first, so that the last gas is refused before the first one runs."""
-    scenes = scenes_of(scene)
-    options_of(scenes, n_particles, time_step, splitting, dtype, steps_per_record)
-    names = ("duration", "collisions", "observable", "rtol", "budget")
-    Limits(scenes, **{name: limits[name] for name in names if name in limits})
 
 
 def run_all(asked: Asked, results: dict[str, Result], *, count_points: bool) -> None:

@@ -97,7 +97,7 @@ class HeatFluxForce(AbstractHomogeneous):
 
     def has_steady_state(self) -> bool:
         """True if there is a heat flux to be measured."""
-        return self.field > 0
+        return bool(self.field > 0)
 
     def no_steady_state(self) -> str:
         """Without a field all responses are 0/0."""

@@ -17,7 +17,6 @@ def test_every_option_reaches_the_run(asked, status):
         "realizations": ("n_realizations", "16", 16),
         "seed": ("seed", "18446744073709551615", 2**64 - 1),
         "duration": ("duration", "7.5", 7.5),
-        "collisions": ("collisions", "8.5", 8.5),
         "observable": ("observable", "a2,temperature", ("a2", "temperature")),
         "rtol": ("rtol", "0.5", 0.5),
         "budget": ("budget", "77", 77.0),
@@ -31,9 +30,10 @@ def test_every_option_reaches_the_run(asked, status):
     assert status(f"run shear {gas} --shear-rate 2.5 --no-progress", *words) == 0
     ((scene, options),) = asked
     wanted = {name: value for name, _, value in flags.values()}
-    assert options == wanted | {"progress": False}
+    assert options == wanted | {"collisions": None, "progress": False}
     numbers = (scene.gas.restitution, scene.gas.rate_factor, scene.shear_rate)
     assert numbers == (0.6, 0.8, 2.5) and scene.gas.drag == "measured"
+    assert status("run shear --collisions 8.5") == 0 and asked[1][1]["collisions"] == 8.5
 
 
 @pytest.mark.parametrize(
