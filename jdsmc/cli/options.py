@@ -175,9 +175,11 @@ def run_options(taken: set[str], default_rtol: float, particles: str) -> list[Op
         ("budget", "budget", one_number, "most collisions per particle to spend"),
         ("time-step", "time_step", one_number, "largest time step, as a fraction of τ(T) and of "
          "the scene's own times, in (0, 1]"),
-        ("splitting", "splitting", _text, "order of flow and collisions in a step: strang "
-         "(second order) or lie (first, as in the papers)"),
-        ("dtype", "dtype", _text, "precision of the velocities: float32 or float64"),
+        ("splitting", "splitting", partial(_chosen, choices=("strang", "lie")),
+         "order of flow and collisions in a step: strang (second order) or lie (first, as in the "
+         "papers)"),
+        ("dtype", "dtype", partial(_chosen, choices=("float32", "float64")),
+         "precision of the velocities: float32 or float64"),
         ("steps-per-record", "steps_per_record", whole, "time steps between two measurements"),
     )  # fmt: skip
     return [
@@ -188,4 +190,4 @@ def run_options(taken: set[str], default_rtol: float, particles: str) -> list[Op
 
 
 def _metavar(read) -> str:
-    return "NAME" if read in (_text, _several) else "NUMBER"
+    return "NUMBER" if read in (whole, one_number) else "NAME"

@@ -121,6 +121,8 @@ class Session:
         blocks as independent, so it is used for this decision only.
         """
         first, last = self.tracker.start[point], self.history.length
+        if last <= first:  # the start was moved to the present
+            return np.inf
         value, error, _ = steady_estimates(self.history, point, first)
         block_error = error
         if self.limits.records is None and not self.correlated:
