@@ -26,17 +26,21 @@ def number(
     default: Any = REQUIRED,
     names: tuple[str, ...] = (),
     axes: int = 0,
+    example: Any = None,
 ) -> Any:
     """A physical number, traced in a step; a sweep gives it one more axis.
 
     Arguments: what it is and its unit; the interval it must lie in; `names` that may stand for
-    values; `axes` of the number itself: 0 for a scalar, 1 for a vector that belongs to the physics.
+    values; `axes` of the number itself: 0 for a scalar, 1 for a vector that belongs to the physics;
+    `example`, what the command line takes if nothing is said (a function of the relative error
+    asked, where it depends on that).
     """
     facts = {"low": low, "high": high, "low_included": low_included, "high_included": high_included}
+    said = {"meaning": meaning, "unit": unit, "range": facts, "names": names, "axes": axes}
     return eqx.field(
         default=default,
         converter=lambda value: value if isinstance(value, str) else check.physical(value),
-        metadata={"meaning": meaning, "unit": unit, "range": facts, "names": names, "axes": axes},
+        metadata=said | {"example": example},
     )
 
 

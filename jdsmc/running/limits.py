@@ -4,6 +4,7 @@ import numpy as np
 
 from .. import check
 from ..errors import NotSteadyError
+from ..scenarios.approach import UNKNOWN
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
 from .steady import tracker_for
@@ -42,7 +43,9 @@ class Limits:
         self.observables = _names(scene, observable)
         self.fixed = duration is not None or collisions is not None
         self.monitored = scene.monitored
-        self.approaches = [scene.approach(options) for scene in scenes]
+        self.approaches = [
+            scene.approach(options) if scene.has_steady_state() else UNKNOWN for scene in scenes
+        ]
         without = [scene for scene in scenes if not scene.has_steady_state()]
         self.can_be_steady = not without
         if not self.fixed and without:

@@ -120,7 +120,9 @@ class Session:
         small would report error bars that are too small. The second has more of them, but takes
         blocks as independent, so it is used for this decision only.
         """
-        first, last = self.tracker.start[point], self.history.length
+        first, last = int(self.tracker.start[point]), self.history.length
+        if last <= first:  # the start was moved to the present
+            return np.inf
         value, error, _ = steady_estimates(self.history, point, first)
         block_error = error
         if self.limits.records is None and not self.correlated:

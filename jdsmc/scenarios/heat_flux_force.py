@@ -74,7 +74,7 @@ class HeatFluxForce(AbstractHomogeneous):
     monitored: ClassVar[tuple[str, ...]] = ("fourth", "flux3", "flux5")
 
     gas: AbstractGas
-    field: Any = number("strength λ0 ε of the force", low=0.0, high=2.0)
+    field: Any = number("strength λ0 ε of the force", low=0.0, high=2.0, example=0.025)
     scheme: Literal["exact", "paper"] = choice(
         "the force of a step: its exact flow around the collisions, or the paper's explicit step",
         ("exact", "paper"),
@@ -97,7 +97,7 @@ class HeatFluxForce(AbstractHomogeneous):
 
     def has_steady_state(self) -> bool:
         """True if there is a heat flux to be measured."""
-        return self.field > 0
+        return bool(self.field > 0)
 
     def no_steady_state(self) -> str:
         """Without a field all responses are 0/0."""

@@ -95,7 +95,7 @@ class ShearedSlab(AbstractSlab):
     axis: ClassVar[str] = "y"
 
     gas: AbstractGas
-    shear_rate: Any = number("shear rate a", "1/τ0", low=0.0, high_included=False)
+    shear_rate: Any = number("shear rate a", "1/τ0", low=0.0, high_included=False, example=4.0)
     length: Any = number(
         "distance L of the planes", "λ0", low=0.0, high=1000.0, low_included=False, default=2.5
     )
@@ -115,7 +115,7 @@ class ShearedSlab(AbstractSlab):
 
     def has_steady_state(self) -> bool:
         """True if heating and cooling can balance: a > 0, and a gas that loses energy."""
-        return self.shear_rate > 0 and loses_energy(self.gas)
+        return bool(self.shear_rate > 0) and loses_energy(self.gas)
 
     def no_steady_state(self) -> str:
         """What a steady state needs."""
