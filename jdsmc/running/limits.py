@@ -4,6 +4,7 @@ import numpy as np
 
 from .. import check
 from ..errors import NotSteadyError
+from ..scenarios.approach import UNKNOWN
 from ..scenarios.base import AbstractScene
 from .steady import tracker_for
 
@@ -40,7 +41,7 @@ class Limits:
         self.observables = _names(scene, observable)
         self.fixed = duration is not None or collisions is not None
         self.monitored = scene.monitored
-        self.approaches = [scene.approach() for scene in scenes]
+        self.approaches = [s.approach() if s.has_steady_state() else UNKNOWN for s in scenes]
         without = [scene for scene in scenes if not scene.has_steady_state()]
         self.can_be_steady = not without
         if not self.fixed and without:

@@ -107,11 +107,12 @@ class Session:
         blocks as independent, so it is used for this decision only.
         """
         first, last = self.tracker.start[point], self.history.length
+        blocks = self.limits.records is None
+        if last - first < (2 * BLOCKS if blocks else 1):
+            return np.inf
         value, error, _ = steady_estimates(self.history, point, first)
         block_error = error
-        if self.limits.records is None:
-            if last - first < 2 * BLOCKS:
-                return np.inf
+        if blocks:
             edges = np.linspace(first, last, BLOCKS + 1).astype(int)
             _, block_error, _ = steady_estimates(self.history, point, edges)
         return max(
