@@ -1,15 +1,18 @@
-"""A gas solved in closed form, and helpers that several tests share."""
+"""A gas solved in closed form, gases that state pair physics alone, and what several tests share."""
+
+from typing import Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 
+import jdsmc
 from jdsmc import random
-from jdsmc.gas import AbstractGas
-from jdsmc.state import HomogeneousState
+from jdsmc.scenarios.homogeneous import maxwellian as maxwellian_state
+from jdsmc.scenarios.options import Options
 
 
-class MaxwellMolecules(AbstractGas):
+class IsotropicMolecules(jdsmc.AbstractGas):
     """Elastic, isotropic scattering at a rate that does not depend on the relative speed.
 
     Every collision keeps the stress of the centre of mass and makes the relative part isotropic:
@@ -17,16 +20,7 @@ class MaxwellMolecules(AbstractGas):
     the collisions per particle and time.
     """
 
-    frictional = False
-    viscosity_exponent = 1.0
-    speed: np.ndarray
-
-    @property
-    def measured_drag(self):
-        return False
-
-    def is_dissipative(self):
-        return False
+    speed: Any = jdsmc.number("pair rate", "v0", low=0.0)
 
     def rate(self, speed):
         return self.speed * jnp.ones_like(speed)
@@ -34,16 +28,55 @@ class MaxwellMolecules(AbstractGas):
     def momentum_transfer(self, relative_velocity, outgoing):
         return tuple(0.5 * (g - e) for g, e in zip(relative_velocity, outgoing, strict=True))
 
-    def drag_coefficient(self):
-        return jnp.zeros(())
 
-    def local_collision_factor(self):
-        return jnp.ones(())
+class PlainSpheres(jdsmc.AbstractGas):
+    """`InelasticHardSpheres` by another name, stating nothing but rate and collision rule."""
+
+    alpha: Any = jdsmc.number("restitution", low=0.0, high=1.0, low_included=False)
+
+    def rate(self, speed):
+        return speed
+
+    def momentum_transfer(self, relative_velocity, outgoing):
+        share = (1.0 + self.alpha) / 4.0
+        return tuple(share * (g - e) for g, e in zip(relative_velocity, outgoing, strict=True))
+
+
+class PlainDisks(PlainSpheres):
+    """The same in two dimensions."""
+
+    dimension = 2
+
+
+class Viscoelastic(jdsmc.AbstractGas):
+    """Spheres whose restitution falls with the impact speed: α = 1 - A g_n^{1/5}.
+
+    With σ̂ along g - g' the normal speed is g_n = |g - g'|/2.
+    """
+
+    dissipation: Any = jdsmc.number("A in α = 1 - A g_n^{1/5}", low=0.0, high=1.0)
+
+    def rate(self, speed):
+        return speed
+
+    def momentum_transfer(self, relative_velocity, outgoing):
+        change = [g - e for g, e in zip(relative_velocity, outgoing, strict=True)]
+        square = sum(c * c for c in change)
+        # a power whose derivative at zero is infinite needs a floor under it
+        normal = 0.5 * (square + 1e-20) ** 0.5
+        share = (2.0 - self.dissipation * normal**0.2) / 4.0
+        return tuple(share * c for c in change)
+
+
+def options(n_particles, time_step=0.1, splitting="strang", dtype="float32", steps=1, **more):
+    """Checked options, by the names of `run`."""
+    return Options.checked(n_particles, time_step, splitting, dtype, steps, **more)
 
 
 def maxwellian(seed, options, temperature=0.5):
     """Velocities of one realization in equilibrium."""
-    return HomogeneousState.maxwellian(random.key_from_seed(seed), options, temperature).velocity
+    key = seed if isinstance(seed, random.Key) else random.key_from_seed(seed)
+    return maxwellian_state(key, options, jdsmc.InelasticHardSpheres(1.0), temperature).velocity
 
 
 def keys(seed, count):
