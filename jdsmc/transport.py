@@ -7,6 +7,8 @@ Method and proofs: docs/impulse_response.md. Theory to compare with: `jdsmc.theo
 
 from math import log, sqrt
 
+import xarray as xr
+
 from . import check
 from .results.result import Result
 from .running.limits import Limits
@@ -59,7 +61,8 @@ def navier_stokes(
         `Result` with `conductivity` κ/κ0, `modified_conductivity` κ'/κ0, `density_coefficient`
         nμ/(Tκ0), `viscosity` η/η0 and `a2` of the cooling state, each with an error. Reference
         values: first Sonine approximation of elastic spheres, `jdsmc.theory.transport`. Over `lag`,
-        the reduced time after a kick: the responses, F, the running integrals.
+        the reduced time after a kick: the responses, F, the running integrals; the same as
+        `result.series` over `time`.
     Raises:
         ValueError, TypeError: bad input, before anything is computed.
         FaultError: lost collisions or numbers that are not finite; `.result` has the kicks before.
@@ -79,7 +82,24 @@ def navier_stokes(
     scene = NavierStokes(gas, strength, followed)
     scenes = scenes_of(scene)
     options = options_of(scenes, particles, time_step, "strang", "float32", STEPS_PER_RECORD)
-    limits = Limits(scenes, rtol=rtol or 1e-9, budget=1e12, records=kicks)
-    return simulate(
-        scene, scenes, options, limits, n_realizations=n_realizations, seed=seed, progress=progress
+    limits = Limits(scenes, options, rtol=rtol or 1e-9, budget=1e12, records=kicks)
+    return with_lag_as_series(
+        simulate(
+            *(scene, scenes, options, limits),
+            **{"n_realizations": n_realizations, "seed": seed, "progress": progress},
+        )
     )
+
+
+def with_lag_as_series(result: Result) -> Result:
+    """`result.series` against the time after a kick: what one kick does is the series here."""
+    tree = result.to_xarray()
+    over_lag = [name for name, values in tree.data_vars.items() if "lag" in values.dims]
+    shorter = {name: _without_prefix(str(name)) for name in over_lag}
+    series = tree.to_dataset()[over_lag].rename(shorter).rename(lag="time")
+    tree["series"] = xr.DataTree(series)
+    return Result(tree)
+
+
+def _without_prefix(name: str) -> str:
+    return name.removeprefix("running_").removeprefix("response_")

@@ -81,6 +81,14 @@ def speed_exponent(gas: AbstractGas) -> float | None:
     return found.pop() if len(found) == 1 else None
 
 
+def power_law(gas: AbstractGas) -> float:
+    """The common exponent of a swept gas; ValueError if it has none."""
+    exponent = speed_exponent(gas)
+    if exponent is None:
+        raise ValueError(f"the pair rate of {type(gas).__name__} is no power of the speed.")
+    return exponent
+
+
 def conserves_energy(gas: AbstractGas) -> bool:
     """True if no point of a swept gas loses energy in collisions."""
     losses = [one.energy_loss_rate(INITIAL_TEMPERATURE) for one in sweep.points(gas)[0]]

@@ -10,10 +10,17 @@ from ..stats import jackknife
 from .history import History
 
 
-def reported(scene: AbstractScene, averages: dict, evolving: bool = False) -> dict:
+def against_time(scene: AbstractScene, averages: dict) -> dict:
+    """What a scene reports against time, from averages of records."""
+    found = scene.evolution(averages)
+    names = [one.name for one in (*scene.reports, *scene.evolves) if one.name in found]
+    return {name: np.asarray(found[name], dtype=float) for name in names}
+
+
+def reported(scene: AbstractScene, averages: dict) -> dict:
     """What a scene reports, from averages; FaultError for a scene that forgets some of it."""
     found = scene.observables(averages)
-    wanted = [one.name for one in (*scene.reports, *(scene.evolves if evolving else ()))]
+    wanted = [one.name for one in scene.reports]
     missing = [name for name in wanted if name not in found]
     if missing:
         raise FaultError(

@@ -106,7 +106,7 @@ class SteadyTracker:
         return float(began + GROWTH * max(collisions - began, FIRST_TEST))
 
     @staticmethod
-    def _collisions_at(history: History, point: int, record: int) -> float:
+    def _collisions_at(history: History, point: int, record: int | np.integer) -> float:
         return float(np.mean(history["collisions"][point, :, min(record, history.length - 1)]))
 
     def confirm(self, history: History, point: int) -> bool:
@@ -159,17 +159,20 @@ class SteadyTracker:
                 return False
         return True
 
-    def _decorrelated(self, history: History, point: int, first: int) -> bool:
+    def _decorrelated(self, history: History, point: int, first: int | np.integer) -> bool:
         edges = np.linspace(first, history.length, BLOCKS + 1).astype(int)
         if np.min(np.diff(edges)) < 1:
             return False
-        blocks = [history.point(point, a, b) for a, b in pairwise(edges)]
+        blocks = [history.monitored(point, a, b, self.monitored) for a, b in pairwise(edges)]
         series = (np.stack([b[name] for b in blocks], axis=1) for name in self.monitored)
         return all(variogram_ratio(values) < CORRELATED for values in series)
 
     def _significance(self, history: History, point: int, first, middle, last) -> float:
         """Smallest significance of a drift of the monitored moments between two windows."""
-        early, late = history.point(point, first, middle), history.point(point, middle, last)
+        early, late = (
+            history.monitored(point, a, b, self.monitored)
+            for a, b in ((first, middle), (middle, last))
+        )
         return min(float(drift_significance(early[n], late[n])) for n in self.monitored)
 
     @property

@@ -19,7 +19,7 @@ from ..collisions.bound import next_bound
 from ..collisions.meet import Collisions
 from ..fields import choice, count, number
 from ..gases import AbstractGas, ElasticHardSpheres
-from ..gases.base import conserves_energy, speed_exponent
+from ..gases.base import conserves_energy, power_law, speed_exponent
 from ..measure import conduction
 from ..measure.observable import Observable
 from ..motion.cells import populations, totals
@@ -137,7 +137,7 @@ class FourierFlow(AbstractSlab):
             )
         return options
 
-    def approach(self) -> Approach:
+    def approach(self, options: Options) -> Approach:
         """Diffusion of heat across the slab."""
         return of_conduction(self.cold_temperature, self.gravity, self.length)
 
@@ -260,5 +260,5 @@ class FourierFlow(AbstractSlab):
     def observables(self, means: dict) -> dict:
         """Profiles, and their reduced form."""
         profiles = conduction.profiles(means)
-        exponent = 1.0 - 0.5 * self.gas.speed_exponent()
+        exponent = 1.0 - 0.5 * power_law(self.gas)
         return profiles | conduction.reduced(profiles, self.gravity, self.length, exponent)

@@ -97,7 +97,7 @@ class NavierStokes(AbstractScene):
         steps = ceil(SPARE * self.duration / step) + 1
         return replace(options, plan=plan, time_step=step, steps=steps, records=1)
 
-    def approach(self) -> Approach:
+    def approach(self, options: Options) -> Approach:
         """None: what is sampled has relaxed before the first kick."""
         return Approach(0.0)
 
@@ -198,6 +198,6 @@ class NavierStokes(AbstractScene):
         """Coefficients, their tails, and the responses."""
         return coefficients(means)
 
-    def axes(self) -> dict:
+    def axes(self, options: Options) -> dict:
         """Times after a kick."""
         return {"lag": (self.times(), {"long_name": "reduced time s", "units": "τ0"})}
