@@ -13,6 +13,7 @@ ORDER = (
     {"theory"},
     {"gases"},
     {"motion"},
+    {"events"},
     {"collisions"},
     {"measure"},
     {"scenarios"},

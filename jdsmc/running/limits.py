@@ -43,11 +43,9 @@ class Limits:
         self.observables = _names(scene, observable)
         self.fixed = duration is not None or collisions is not None
         self.monitored = scene.monitored
-<<<<<<< HEAD
-        self.approaches = [s.approach() if s.has_steady_state() else UNKNOWN for s in scenes]
-=======
-        self.approaches = [scene.approach(options) for scene in scenes]
->>>>>>> main
+        self.approaches = [
+            s.approach(options) if s.has_steady_state() else UNKNOWN for s in scenes
+        ]
         without = [scene for scene in scenes if not scene.has_steady_state()]
         self.can_be_steady = not without
         if not self.fixed and without:
