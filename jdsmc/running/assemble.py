@@ -120,7 +120,7 @@ def _measured(tracker, history: History, records: int) -> bool:
     return bool(ready)
 
 
-def _at_start(clock: np.ndarray, start: int) -> float:
+def _at_start(clock: np.ndarray, start: int | np.integer) -> float:
     return float(np.mean(clock[:, start]))
 
 
