@@ -5,22 +5,14 @@ followed while the disturbance dies: its time integral is the coefficient, for a
 Method and proofs: docs/impulse_response.md. Theory to compare with: `jdsmc.theory.transport`.
 """
 
-from math import log, sqrt
-
 import xarray as xr
 
 from . import check
 from .results.result import Result
 from .running.limits import Limits
 from .running.run import options_of, scenes_of, simulate
-from .scenarios.navier_stokes import NavierStokes
+from .scenarios.navier_stokes import NavierStokes, duration_for, kick_for
 from .scenarios.options import STEPS_PER_RECORD
-
-NONLINEARITY = 0.125
-"""What is nonlinear in a kick biases a coefficient by this times ε²: 0.5% at 0.2, measured."""
-
-SLOWEST = 0.44
-"""Slowest decay of a response (1/τ0), that of κ at α = 0.3."""
 
 MOST_KICKS = 10_000
 
@@ -72,8 +64,7 @@ def navier_stokes(
         fitted = (100_000, 4, 0.2, 15.0)
     else:
         check.scalar("rtol", rtol, 0.0, 1.0)
-        weak = min(0.2, sqrt(0.5 * rtol / NONLINEARITY))
-        fitted = (20_000, MOST_KICKS, weak, max(6.0, log(0.2 / rtol) / SLOWEST))
+        fitted = (20_000, MOST_KICKS, kick_for(rtol), duration_for(rtol))
     asked = (n_particles, n_kicks, kick, duration)
     particles, kicks, strength, followed = (
         default if given is None else given for given, default in zip(asked, fitted, strict=True)

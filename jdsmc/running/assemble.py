@@ -83,7 +83,7 @@ def assemble(scene: AbstractScene, history: History, tracker, session, attrs: di
     root = xr.Dataset(coords=labels.coords)
     points = range(len(history.scenes))
     if tracker is not None and history.length and _measured(tracker, history, options.records):
-        starts = tracker.start
+        starts = [int(start) for start in tracker.start]
         estimates = [steady_estimates(history, p, starts[p]) for p in points]
         columns = {}
         for name in estimates[0][0]:

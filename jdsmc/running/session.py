@@ -121,12 +121,12 @@ class Session:
         blocks as independent, so it is used for this decision only.
         """
         first, last = self.tracker.start[point], self.history.length
-        in_blocks = self.limits.records is None and not self.correlated
-        if last - first < (2 * BLOCKS if in_blocks else 1):  # the start may be the end so far
+        blocks = self.limits.records is None and not self.correlated
+        if last - first < (2 * BLOCKS if blocks else 1):
             return np.inf
         value, error, _ = steady_estimates(self.history, point, first)
         block_error = error
-        if in_blocks:
+        if blocks:
             edges = np.linspace(first, last, BLOCKS + 1).astype(int)
             _, block_error, _ = steady_estimates(self.history, point, edges)
         return max(

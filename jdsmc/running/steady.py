@@ -102,7 +102,7 @@ class SteadyTracker:
             self.slow_time[point] = 0.5 * collisions / BLOCKS
 
     def _grown(self, history: History, point: int, collisions: float) -> float:
-        began = self._collisions_at(history, point, self.start[point])
+        began = self._collisions_at(history, point, int(self.start[point]))
         return float(began + GROWTH * max(collisions - began, FIRST_TEST))
 
     @staticmethod
@@ -130,10 +130,11 @@ class SteadyTracker:
     def _settled(self, history: History, point: int) -> bool:
         if self.start[point] < 0 or not self.confirm(history, point):
             return False
-        if not self.certain[point] and not self._decorrelated(history, point, self.start[point]):
+        start = int(self.start[point])
+        if not self.certain[point] and not self._decorrelated(history, point, start):
             return False
         end = history.mean_collisions()[point]
-        began = self._collisions_at(history, point, self.start[point])
+        began = self._collisions_at(history, point, int(self.start[point]))
         while began <= max(0.6 * end, self.least[point]):
             start = history.record_at_collisions(point, began)
             if history.length - start < 2:

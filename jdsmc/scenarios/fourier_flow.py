@@ -96,6 +96,7 @@ class FourierFlow(AbstractSlab):
         low=0.0,
         high=1.0,
         low_included=False,
+        example=0.05,
     )
     gravity: Any = number(
         "gravity g, positive towards the cold wall", "v0²/λ0", low=-1.0, high=1.0, default=0.0

@@ -74,7 +74,7 @@ class HeatFluxForce(AbstractHomogeneous):
     monitored: ClassVar[tuple[str, ...]] = ("fourth", "flux3", "flux5")
 
     gas: AbstractGas
-    field: Any = number("strength λ0 ε of the force", low=0.0, high=2.0)
+    field: Any = number("strength λ0 ε of the force", low=0.0, high=2.0, example=0.025)
     scheme: Literal["exact", "paper"] = choice(
         "the force of a step: its exact flow around the collisions, or the paper's explicit step",
         ("exact", "paper"),

@@ -95,7 +95,7 @@ class ShearedSlab(AbstractSlab):
     axis: ClassVar[str] = "y"
 
     gas: AbstractGas
-    shear_rate: Any = number("shear rate a", "1/τ0", low=0.0, high_included=False)
+    shear_rate: Any = number("shear rate a", "1/τ0", low=0.0, high_included=False, example=4.0)
     length: Any = number(
         "distance L of the planes", "λ0", low=0.0, high=1000.0, low_included=False, default=2.5
     )

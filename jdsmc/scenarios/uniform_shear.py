@@ -43,7 +43,7 @@ class UniformShear(AbstractHomogeneous):
     monitored: ClassVar[tuple[str, ...]] = ("temperature", "xy", "xx", "fourth")
 
     gas: AbstractGas
-    shear_rate: Any = number("shear rate a", "1/τ0", low=0.0, high_included=False)
+    shear_rate: Any = number("shear rate a", "1/τ0", low=0.0, high_included=False, example=4.0)
 
     def step(
         self, key: Key, velocity: Velocity, majorant: Scalar, duration: Scalar, options: Options
