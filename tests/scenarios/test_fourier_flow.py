@@ -172,7 +172,7 @@ class Restless(AbstractGas):
     [
         (ValueError, "needs an elastic gas", InelasticHardSpheres([1.0, 0.9])),
         (ValueError, "needs an elastic gas", ElasticHardSpheres([1.0, 0.9])),
-        (ValueError, "whose pair rate is a power of the relative speed", Restless()),
+        (ValueError, "needs a gas whose pair rate is a power of the relative speed", Restless()),
         (TypeError, "needs a gas of 3 velocity components", InelasticHardDisks(1.0)),
     ],
 )
@@ -189,6 +189,7 @@ def test_gases_that_do_not_belong_are_refused(error, message, gas):
         ({"gravity": 2.0}, r"gravity = 2 is outside the allowed range \[-1, 1\]"),
         ({"length": 0.0}, r"length = 0 is outside the allowed range \(0, 1000\]"),
         ({"layers": 0}, r"layers = 0 is outside the allowed range \[1, inf\)"),
+        ({"layers": -3}, r"layers = -3 is outside"),
         ({"gas": InelasticHardSpheres(0.9)}, "needs an elastic gas"),
         ({"gas": ElasticHardSpheres(0.9)}, "needs an elastic gas"),
     ],
@@ -197,6 +198,14 @@ def test_bad_input_is_refused(changed, message):
     good = {"gas": SPHERES, "cold_temperature": 0.05}
     with pytest.raises(ValueError, match=message):
         FourierFlow(**good | changed)
+
+
+def test_layers_are_counted():
+    """What is whole is an integer, as of every size; the rest is refused."""
+    assert type(FourierFlow(SPHERES, 0.5, layers=20.0).layers) is int
+    for layers in (20.5, True, "20"):
+        with pytest.raises(TypeError, match=f"layers must be an integer, got {layers!r}"):
+            FourierFlow(SPHERES, 0.5, layers=layers)
 
 
 @pytest.mark.parametrize(("layers", "particles"), [(20, 5_000), (200, 10_000)])
