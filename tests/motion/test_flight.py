@@ -87,7 +87,7 @@ def test_endless_bouncing_is_counted_as_lost():
 
 def test_a_hit_takes_the_rest_of_the_step_with_the_new_velocity():
     """From z = 1 with v = -2 for 1 τ0: the wall is hit at 0.5, so z = 0.5 v_new."""
-    position, velocity, exchange = _fly([1.0] * 50, np.full((3, 50), -2.0), 1.0)
+    position, velocity, _ = _fly([1.0] * 50, np.full((3, 50), -2.0), 1.0)
     np.testing.assert_allclose(position, 0.5 * np.asarray(velocity[2]), rtol=1e-5)
     assert np.all(np.asarray(velocity[2]) > 0)
     assert len(np.unique(np.asarray(velocity[2]))) == 50
