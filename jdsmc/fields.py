@@ -61,14 +61,25 @@ def derived() -> Any:
     return eqx.field(static=True, metadata={"derived": True})
 
 
+def held(module) -> list[tuple[dataclasses.Field, Any]]:
+    """Every field of a gas or scene, and what it holds."""
+    return [(field, getattr(module, field.name)) for field in dataclasses.fields(module)]
+
+
 def given(module) -> list[dataclasses.Field]:
     """The fields that make a gas or scene: all but those that are derived from others."""
     return [f for f in dataclasses.fields(module) if not f.metadata.get("derived", False)]
 
 
+def ingredients(module) -> dict[str, Any]:
+    """What a gas or scene was made from, by the names of its fields."""
+    names = {field.name for field in given(module)}
+    return {field.name: value for field, value in held(module) if field.name in names}
+
+
 def text(module) -> str:
     """A gas or scene with its numbers, as it would be typed."""
-    parts = [f"{f.name}={_shown(getattr(module, f.name))}" for f in given(module)]
+    parts = [f"{name}={_shown(value)}" for name, value in ingredients(module).items()]
     return f"{type(module).__name__}({', '.join(parts)})"
 
 
@@ -80,13 +91,13 @@ def _shown(value) -> str:
 
 def check_fields(module: eqx.Module) -> None:
     """Raise ValueError or TypeError unless every described field holds what it allows."""
-    for field in dataclasses.fields(module):
-        value, facts = getattr(module, field.name), field.metadata
+    for field, value in held(module):
+        facts = field.metadata
         if "choices" in facts:
             check.one_of(field.name, value, facts["choices"])
         elif "least" in facts:
             check.at_least(field.name, value, facts["least"])
-        elif "range" in facts and isinstance(value, str):
+        elif "range" in facts and facts["names"] and isinstance(value, str):
             check.one_of(field.name, value, (*facts["names"], "a number"))
         elif "range" in facts:
             check.in_range(field.name, value, axes=facts["axes"], **facts["range"])

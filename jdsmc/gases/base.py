@@ -75,6 +75,12 @@ class AbstractGas(eqx.Module):
         return local.energy_loss_rate(self, temperature)
 
 
+def check_gas(gas) -> None:
+    """Raise TypeError for what is no gas."""
+    if not isinstance(gas, AbstractGas):
+        raise TypeError(f"gas must be a jdsmc gas, got {gas!r}.")
+
+
 def speed_exponent(gas: AbstractGas) -> float | None:
     """The common exponent of a swept gas; None if a point has none or another."""
     found = {one.speed_exponent() for one in sweep.points(gas)[0]}

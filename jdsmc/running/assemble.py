@@ -109,6 +109,7 @@ def assemble(scene: AbstractScene, history: History, tracker, session, attrs: di
         attrs = attrs | {"remarks": " ".join(sorted(remarks - {""}))}
     root.attrs = provenance(scene, options) | attrs
     root.attrs["swept"] = " ".join(labels.dims)
+    root.attrs["n_records"] = history.length
     root.attrs["run"] = run_name(scene, options, attrs["seed"], history.length)
     groups["/"] = root
     return Result(xr.DataTree.from_dict(groups))
@@ -120,7 +121,7 @@ def _measured(tracker, history: History, records: int) -> bool:
     return bool(ready)
 
 
-def _at_start(clock: np.ndarray, start: int) -> float:
+def _at_start(clock: np.ndarray, start: int | np.integer) -> float:
     return float(np.mean(clock[:, start]))
 
 

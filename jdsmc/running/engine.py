@@ -6,7 +6,6 @@ number: so random numbers and roundings depend on the gas alone, not on the swee
 a sweep of other length compiles nothing new.
 """
 
-import os
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
@@ -19,7 +18,7 @@ from jax import lax
 from .. import random, sweep
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
-from .batch import gathered
+from .batch import cores, gathered
 
 TOGETHER = 20_000
 """Particles of a homogeneous gas that a CPU advances at once: with fewer, starting each operation
@@ -51,7 +50,7 @@ class Engine:
             self._scenes.append(_placed(_group(batch, first, size), device, options))
             self._keys.append(jax.device_put(_stacked(_group(keys, first, size)), device))
         work = list(zip(self._scenes, self._keys, strict=True))
-        self._pool = ThreadPoolExecutor(min(len(work), max(_cores(), len(devices))))
+        self._pool = ThreadPoolExecutor(min(len(work), max(cores(), len(devices))))
         self.states: list[Any] = self._share(lambda n: _start(*work[n], options))
 
     def advance(self):
@@ -147,10 +146,3 @@ def _placed(scenes: list, device, options: Options):
     numbers, rest = eqx.partition(sweep.stack(scenes), sweep.is_number)
     cast = jax.tree.map(lambda x: jnp.asarray(x, options.dtype), numbers)
     return eqx.combine(jax.device_put(cast, device), rest)
-
-
-def _cores() -> int:
-    """Cores this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1

@@ -44,7 +44,7 @@ class Limits:
         self.fixed = duration is not None or collisions is not None
         self.monitored = scene.monitored
         self.approaches = [
-            scene.approach(options) if scene.has_steady_state() else UNKNOWN for scene in scenes
+            s.approach(options) if s.has_steady_state() else UNKNOWN for s in scenes
         ]
         without = [scene for scene in scenes if not scene.has_steady_state()]
         self.can_be_steady = not without

@@ -2,11 +2,14 @@
 
 from typing import Literal
 
+import numpy as np
+
 from .. import check, sweep
 from ..errors import FaultError, NotSteadyError
 from ..results.result import Result
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
+from ..types import Whole
 from .assemble import assemble
 from .limits import Limits
 from .progress import interruptible, progress_bar
@@ -19,9 +22,9 @@ LEAST_REALIZATIONS = 8
 def run(
     scene: AbstractScene,
     *,
-    n_particles: int | None = None,
-    n_realizations: int = 8,
-    seed: int = 0,
+    n_particles: Whole | None = None,
+    n_realizations: Whole = 8,
+    seed: Whole = 0,
     duration: float | None = None,
     collisions: float | None = None,
     observable: str | tuple[str, ...] | None = None,
@@ -29,8 +32,8 @@ def run(
     budget: float = 5_000.0,
     time_step: float | None = None,
     splitting: Literal["strang", "lie"] = "strang",
-    dtype: Literal["float32", "float64"] = "float32",
-    steps_per_record: int | None = None,
+    dtype: Literal["float32", "float64"] | type | np.dtype = "float32",
+    steps_per_record: Whole | None = None,
     progress: bool = True,
 ) -> Result:
     """Simulate a scene and return labelled results with error bars.
@@ -122,8 +125,8 @@ def simulate(
     options: Options,
     limits: Limits,
     *,
-    n_realizations: int,
-    seed: int,
+    n_realizations: Whole,
+    seed: Whole,
     progress: bool,
 ) -> Result:
     """Advance until a limit is met, and assemble what was measured; see `run`."""

@@ -120,14 +120,13 @@ class Session:
         small would report error bars that are too small. The second has more of them, but takes
         blocks as independent, so it is used for this decision only.
         """
-        first, last = int(self.tracker.start[point]), self.history.length
-        if last <= first:  # the start was moved to the present
+        first, last = self.tracker.start[point], self.history.length
+        blocks = self.limits.records is None and not self.correlated
+        if last - first < (2 * BLOCKS if blocks else 1):
             return np.inf
         value, error, _ = steady_estimates(self.history, point, first)
         block_error = error
-        if self.limits.records is None and not self.correlated:
-            if last - first < 2 * BLOCKS:
-                return np.inf
+        if blocks:
             edges = np.linspace(first, last, BLOCKS + 1).astype(int)
             _, block_error, _ = steady_estimates(self.history, point, edges)
         return max(

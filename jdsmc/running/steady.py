@@ -106,7 +106,7 @@ class SteadyTracker:
         return float(began + GROWTH * max(collisions - began, FIRST_TEST))
 
     @staticmethod
-    def _collisions_at(history: History, point: int, record: int) -> float:
+    def _collisions_at(history: History, point: int, record: int | np.integer) -> float:
         return float(np.mean(history["collisions"][point, :, min(record, history.length - 1)]))
 
     def confirm(self, history: History, point: int) -> bool:
@@ -160,7 +160,7 @@ class SteadyTracker:
                 return False
         return True
 
-    def _decorrelated(self, history: History, point: int, first: int) -> bool:
+    def _decorrelated(self, history: History, point: int, first: int | np.integer) -> bool:
         edges = np.linspace(first, history.length, BLOCKS + 1).astype(int)
         if np.min(np.diff(edges)) < 1:
             return False

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..collisions.meet import Collisions
 from ..fields import check_fields, text
-from ..gases.base import AbstractGas
+from ..gases.base import AbstractGas, check_gas
 from ..measure.observable import Observable
 from ..types import Scalar
 from .approach import UNKNOWN, Approach
@@ -82,8 +82,7 @@ class AbstractScene(eqx.Module):
     against them, and shorter windows are not compared."""
 
     def __check_init__(self):
-        if not isinstance(self.gas, AbstractGas):
-            raise TypeError(f"gas must be a jdsmc gas, got {self.gas!r}.")
+        check_gas(self.gas)
         name = type(self).__name__
         if self.gas.dimension not in self.dimensions:
             wanted = " or ".join(str(d) for d in self.dimensions)

@@ -102,38 +102,44 @@ class CoolingDisks(AbstractCoolingDisks):
     def advance(
         self, key: Key, state: PlaneState, options: Options
     ) -> tuple[PlaneState, DiskRecord]:
-        """One record: remove the net momentum, sample, then make `options.steps` steps."""
+        """One record: remove the net momentum, sample, then make `options.steps` steps.
+
+        A step is half a flight, collisions in cells, half a flight ("strang"), or flight and
+        collisions ("lie"); the flights of two steps are made at once.
+        """
         state = PlaneState(state.position, still(state.velocity))
         side = self.side(options.n_particles)
         moments = self.measure(state, side)
+        before, after = options.halves
+        flights = jnp.ones(options.steps, options.dtype).at[0].set(before) * options.time_step
 
-        def step(state, number):
-            return self.step(random.fold_in(key, number), state, side, options)
+        def step(state, inputs):
+            number, duration = inputs
+            state = self.move(state, side, duration)
+            return self.collide(random.fold_in(key, number), state, side, options)
 
-        state, tally = lax.scan(step, state, jnp.arange(options.steps, dtype=jnp.uint32))
+        counts = jnp.arange(options.steps, dtype=jnp.uint32)
+        state, tally = lax.scan(step, state, (counts, flights))
+        if after:
+            state = self.move(state, side, after * options.time_step)
         number = options.n_particles * self.copies
-        counts = jnp.asarray([options.n_particles, number], options.dtype)
+        real = jnp.asarray([options.n_particles, number], options.dtype)
         elapsed = jnp.asarray(options.steps * options.time_step, options.dtype)
-        return state, DiskRecord(moments, self.of_real(Collisions.over(tally)), elapsed, counts)
+        return state, DiskRecord(moments, self.of_real(Collisions.over(tally)), elapsed, real)
 
-    def step(
+    def collide(
         self, key: Key, state: PlaneState, side, options: Options
     ) -> tuple[PlaneState, Collisions]:
-        """Half a flight, collisions in cells, half a flight; or flight and collisions ("lie")."""
-        before, after = options.halves
-        state = self.move(state, side, before * options.time_step)
+        """Collisions within the cells during a time step."""
         columns = self.columns(options)
         velocity, tally, _ = collide_in_layers(
             *(key, self.gas, cell_of(state.position, side, columns), columns**2),
             *(state.velocity, jnp.asarray(options.time_step, options.dtype)),
             crowded=True,
         )
-        state = PlaneState(state.position, velocity)
-        if after:
-            state = self.move(state, side, after * options.time_step)
-        return state, tally
+        return PlaneState(state.position, velocity), tally
 
-    def move(self, state: PlaneState, side, duration: float) -> PlaneState:
+    def move(self, state: PlaneState, side, duration) -> PlaneState:
         """The exact flow between collisions: eqs. (14), (15)."""
         return PlaneState(*fly(state.position, state.velocity, self.growth_rate, side, duration))
 

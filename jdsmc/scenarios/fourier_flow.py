@@ -19,7 +19,7 @@ from ..collisions.bound import next_bound
 from ..collisions.meet import Collisions
 from ..fields import choice, count, number
 from ..gases import AbstractGas, ElasticHardSpheres
-from ..gases.base import conserves_energy, power_law, speed_exponent
+from ..gases.base import check_gas, conserves_energy, power_law, speed_exponent
 from ..measure import conduction
 from ..measure.observable import Observable
 from ..motion.cells import populations, totals
@@ -112,6 +112,7 @@ class FourierFlow(AbstractSlab):
     layers: int = count("layers across the slab", default=100)
 
     def __check_init__(self):
+        check_gas(self.gas)
         if isinstance(self.gas, ElasticHardSpheres) or not conserves_energy(self.gas):
             raise ValueError("FourierFlow needs an elastic gas without drag: restitution = 1.")
         if speed_exponent(self.gas) is None:

@@ -115,7 +115,7 @@ class ShearedSlab(AbstractSlab):
 
     def has_steady_state(self) -> bool:
         """True if heating and cooling can balance: a > 0, and a gas that loses energy."""
-        return bool(self.shear_rate > 0) and loses_energy(self.gas)
+        return bool(self.shear_rate > 0 and loses_energy(self.gas))
 
     def no_steady_state(self) -> str:
         """What a steady state needs."""

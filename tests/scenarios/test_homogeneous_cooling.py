@@ -7,16 +7,12 @@ import pytest
 
 import jdsmc
 from jdsmc import ElasticHardSpheres, InelasticHardSpheres
-from jdsmc.observables import MAXWELL_CUBED
 from jdsmc.scenarios import HomogeneousCooling
-from jdsmc.scenarios.homogeneous_cooling import (
-    check_without_drag,
-    scaled_to_start,
-    slowed_rates,
-)
+from jdsmc.scenarios.scaled import scaled_to_start, slowed_rates
 from jdsmc.theory import homogeneous_cooling as theory
+from jdsmc.units import MAXWELL_CUBED
 
-from .windows import simulate, within
+from .batches import simulate, standard_error, within
 
 ALPHAS = [0.5, 0.9]
 CHUNKS, SKIP = 12, 5
@@ -47,8 +43,10 @@ def _a2(means):
     return means["fourth"] / (15 * means["T4"]) - 1
 
 
-def _standard_error(values):
-    return np.std(values, ddof=1) / np.sqrt(len(values))
+def _mean_powers(means, alpha):
+    """√T and T^{3/2} averaged over the steps, from the rates of local equilibrium."""
+    root, cube = means["local_rate"], means["local_loss"] / (1 - alpha**2)
+    return root * np.sqrt(np.pi / 2), cube * np.sqrt(np.pi / 2)
 
 
 @pytest.mark.parametrize("alpha", ALPHAS)
@@ -60,21 +58,21 @@ def test_haffs_law_in_plain_time(gases, alpha):
     """
     history, records = gases[alpha]
     first = SKIP * records
-    inverse = 1 / (np.sqrt(2 * history["temperature"][0]) * history["scale"][0])
-    scaled_rate = history["energy_lost"] / history["elapsed"] / history["T3_steps"]
-    slope = scaled_rate[0] / (3 * 2**0.5)  # (ζ/2)/√(T/T0), with ζ = (2/3) loss/T
-    plain = history["elapsed"][0] / history["scale"][0]
+    inverse = 1 / np.sqrt(2 * history["true_temperature"][0])
+    _, cube = _mean_powers(history, alpha)
+    slope = (history["energy_lost"] / history["elapsed"] / cube)[0] / (3 * 2**0.5)
+    plain = history["plain_time"][0]  # slope: (ζ/2)/√(T/T0), with ζ = (2/3) loss/T
     gained = inverse[:, -1] - inverse[:, first]
     expected = np.sum((slope * plain)[:, first:-1], axis=1)
-    assert _standard_error(gained / expected) < 2.5e-4
+    assert standard_error(gained / expected) < 2.5e-4
     assert abs(np.mean(gained / expected) - 1) < 1e-3
 
 
 def test_every_loss_is_a_collision(gases):
     """The energy between two records falls by what collisions took, to rounding (5e-5 of it)."""
     history, _ = gases[0.5]
-    scale = history["scale"][0]
-    left = (scale[:, 1:] / scale[:, :-1]) ** 2
+    heat = history["true_temperature"][0]
+    left = heat[:, 1:] / heat[:, :-1]
     np.testing.assert_allclose(
         0.75 * (1 - left), history["energy_lost"][0, :, :-1], rtol=1e-4, atol=1e-5
     )
@@ -84,8 +82,8 @@ def test_every_loss_is_a_collision(gases):
 def test_cooling_rate_by_pairs_and_from_the_energy_lost(gases, alpha):
     """⟨V12³⟩ by pairs, which random pairs of the gas have, and by what collisions took (2.10)."""
     means = _steady(gases[alpha])
-    lost = means["energy_lost"] / ((1 - alpha**2) * np.sqrt(2 / np.pi) * means["T3_steps"])
-    assert _standard_error(lost - _ratio(means)) < 1.5e-3
+    lost = means["energy_lost"] / means["local_loss"]
+    assert standard_error(lost - _ratio(means)) < 1.5e-3
     assert within(lost - _ratio(means))
 
 
@@ -96,10 +94,10 @@ def test_collision_rate(gases, alpha):
     a3 and a2² change it by a few 1e-4 (measured a3: -0.014 at α = 0.5; its factor is 1/48).
     """
     means = _steady(gases[alpha])
-    rate = means["accepted"] / (np.sqrt(2 / np.pi) * means["T1_steps"])
+    rate = means["accepted"] / means["local_rate"]
     difference = rate - (1 - _a2(means) / 16)
-    assert _standard_error(difference) < 5e-4
-    assert abs(np.mean(difference)) < 4.5 * _standard_error(difference) + 5e-4
+    assert standard_error(difference) < 5e-4
+    assert abs(np.mean(difference)) < 4.5 * standard_error(difference) + 5e-4
 
 
 @pytest.mark.parametrize("alpha", ALPHAS)
@@ -107,14 +105,14 @@ def test_steady_cumulants(gases, alpha):
     """The formula for a2 is off by 10% at most down to α = 0.5 (it leaves out a3 and a2²)."""
     means = _steady(gases[alpha])
     a2, known = _a2(means), theory.kurtosis(alpha)
-    assert _standard_error(a2) < 0.15 * abs(known)
-    assert abs(np.mean(a2)) > 4.5 * _standard_error(a2)
-    assert abs(np.mean(a2) - known) < 4.5 * _standard_error(a2) + 0.1 * abs(known)
+    assert standard_error(a2) < 0.15 * abs(known)
+    assert abs(np.mean(a2)) > 4.5 * standard_error(a2)
+    assert abs(np.mean(a2) - known) < 4.5 * standard_error(a2) + 0.1 * abs(known)
     a3 = -means["sixth"] / (105 * means["T6"]) + 1 + 3 * a2
     # Brilliantov and Pöschel (2006): a3 from -0.015 at α = 0.5 to -0.003 at 0.9, second order
     # in what a2 is of first order, hence smaller: |a3| < |a2| and never positive
-    assert np.mean(a3) < 4.5 * _standard_error(a3)
-    assert abs(np.mean(a3)) < abs(known) / 2 + 4.5 * _standard_error(a3)
+    assert np.mean(a3) < 4.5 * standard_error(a3)
+    assert abs(np.mean(a3)) < abs(known) / 2 + 4.5 * standard_error(a3)
 
 
 def test_every_record_is_at_t0_and_at_rest(gases):
@@ -137,7 +135,7 @@ def test_every_record_is_at_t0_and_at_rest(gases):
 def test_slowed_rates():
     """The trapezoidal rule: exact for a linear √T; for its cube to h² = 1/64 of the curvature."""
     root = np.linspace(1, 0.6, 9)
-    first, third = slowed_rates(jnp.asarray(0.5 * root[1:] ** 2, dtype=jnp.float32))
+    first, third = slowed_rates(jnp.asarray(0.5 * root[1:] ** 2, dtype=jnp.float32), 1.0)
     assert float(first) == pytest.approx(0.8, rel=1e-6)
     exact = (1 - 0.6**4) / (4 * 0.4)
     assert float(third) == pytest.approx(exact, abs=6 * 0.4**2 / 64 / 12 * 1.05)
@@ -155,11 +153,11 @@ def test_rescaling_changes_nothing():
         options = dict(n_particles=8000, steps=steps, records=64 // steps, seed=3 + steps)
         history, records = simulate(scene, 10, **options)
         means = history.point(0, 4 * records, history.length)
-        measured[steps] = means["energy_lost"] / means["T3_steps"], _a2(means)
+        measured[steps] = means["energy_lost"] / means["local_loss"], _a2(means)
     for (few, many), precision in zip(
         zip(*measured.values(), strict=True), (3e-3, 0.1), strict=True
     ):
-        error = np.hypot(_standard_error(few), _standard_error(many))
+        error = np.hypot(standard_error(few), standard_error(many))
         assert error < precision * np.mean(few)
         assert abs(np.mean(few) - np.mean(many)) < 4.5 * error
 
@@ -201,9 +199,8 @@ def test_gas_with_drag(alpha):
 
 @pytest.mark.parametrize("gas", [None, 0.5, "ihs"])
 def test_what_is_no_gas(gas):
-    """The scene's own check; that of the annotations, which only tests have, comes before it."""
     with pytest.raises(TypeError, match="gas must be a jdsmc gas"):
-        check_without_drag(gas, "HomogeneousCooling")
+        HomogeneousCooling(gas)
 
 
 @pytest.mark.slow
@@ -216,7 +213,7 @@ def test_molecular_chaos_to_a_thousandth():
     options = dict(n_particles=16_000, n_realizations=32, time_step=0.05, steps=16, records=16)
     history, _ = simulate(scene, 20, seed=21, **options)
     means = history.point(0, 48, history.length)
-    lost = means["energy_lost"] / (0.75 * np.sqrt(2 / np.pi) * means["T3_steps"])
+    lost = means["energy_lost"] / means["local_loss"]
     difference = lost - _ratio(means)
-    assert _standard_error(difference) < 3e-4
+    assert standard_error(difference) < 3e-4
     assert abs(np.mean(difference)) < 1.5e-3

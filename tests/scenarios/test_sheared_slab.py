@@ -8,23 +8,21 @@ import pytest
 
 import jdsmc
 from jdsmc import ElasticHardSpheres, InelasticHardSpheres, cli, random
-from jdsmc.engine import _cast
-from jdsmc.flight import cross_planes
-from jdsmc.layer_flow import LayerFlow, friction, peculiar, slowed, slowing
-from jdsmc.layers import totals
-from jdsmc.options import Options
-from jdsmc.scenarios import ShearedSlab, UniformShear
+from jdsmc.motion.cells import totals
+from jdsmc.motion.flight import cross_planes
+from jdsmc.motion.friction import LayerFlow, friction, peculiar, slowed, slowing
+from jdsmc.running.engine import Engine
+from jdsmc.scenarios import Options, ShearedSlab, UniformShear
 
-from .gases import f32, keys
-from .windows import relative_error, within
+from .batches import f32, keys, relative_error, traced, within
 
 SQRT_PI = np.sqrt(np.pi)
 
 
 def _states(scene, records, *, n_particles=2000, n_realizations=16, steps=1, time_step=0.05):
     """States of every realization before the records and after the last, and the records."""
-    options = Options.checked(n_particles, time_step, "strang", "float32", steps, 1, True)
-    one = _cast(scene, options)
+    options = Options.checked(n_particles, time_step, "strang", "float32", steps, in_space=True)
+    one = traced(scene)
 
     @jax.jit
     def all_records(keys):
@@ -276,7 +274,7 @@ def test_any_start_ends_in_uniform_shear(state):
 
 def test_initial_states():
     """Eqs. (3.5) to (3.8), with 40 layers of 2500: errors of 2% in density, 0.02 v0 in velocity."""
-    options = Options.checked(100_000, 0.05, "strang", "float32", 1, 1, True)
+    options = Options.checked(100_000, 0.05, "strang", "float32", 1, in_space=True)
     y = (np.arange(40) + 0.5) / 40
     found = {}
     for state in ("equilibrium", "nonequilibrium", "local_equilibrium"):
@@ -305,7 +303,7 @@ def test_initial_states():
 def test_all_peculiar_speeds_are_equal():
     """Eq. (3.6): |v - u0| = V0 = √(3/2) (T0 = 1/2), but for a mean of 1/√N that is taken out."""
     scene = ShearedSlab(InelasticHardSpheres(f32(0.9)), f32(4.0), f32(2.5), "nonequilibrium", 10)
-    options = Options.checked(20_000, 0.05, "strang", "float32", 1, 1, True)
+    options = Options.checked(20_000, 0.05, "strang", "float32", 1, in_space=True)
     start = scene.initial(random.key_from_seed(3), options)
     vx, vy, vz = (np.asarray(v, float) for v in start.velocity)
     vx -= 10 * (np.sin(np.pi * np.asarray(start.position, float) / 2.5) - 2 / np.pi)
@@ -332,7 +330,7 @@ def test_sweep_of_length_and_shear_rate():
     assert np.all(np.isfinite(series["collision_ratio"].values[..., 1:]))
 
 
-SMALL = ["--particles", "500", "--realizations", "4", "--layers", "10", "--no-progress"]
+SMALL = ["--particles", "500", "--realizations", "8", "--layers", "10", "--no-progress"]
 
 
 def test_commands(tmp_path, monkeypatch, capsys):
@@ -369,7 +367,7 @@ def test_commands(tmp_path, monkeypatch, capsys):
 def test_bad_input(line, words, tmp_path, capsys, monkeypatch):
     """One sentence, status 2, nothing written and nothing simulated."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("jdsmc.engine.Engine.advance", lambda self: pytest.fail("a chunk ran"))
+    monkeypatch.setattr(Engine, "advance", lambda self: pytest.fail("a chunk ran"))
     try:
         status = cli.main(["run", "sheared-slab", *SMALL, *line.split(), "--out", "x.h5"])
     except SystemExit as leaving:

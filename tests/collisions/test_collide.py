@@ -7,19 +7,18 @@ import pytest
 from jax import lax
 
 from jdsmc import ElasticHardSpheres, InelasticHardSpheres, random
-from jdsmc.collide import collide
-from jdsmc.observables import MAXWELL_CUBED
-from jdsmc.options import Options
+from jdsmc.collisions.whole import collide
+from jdsmc.units import MAXWELL_CUBED
 
-from .gases import f32, keys, maxwellian, sums
+from ..helpers import f32, keys, maxwellian, options, sums
 
-OPTIONS = Options.checked(20_000, 0.1, "strang", "float32", 1, 1)
+OPTIONS = options(20_000)
 
 
-def _collide(gas, velocity, majorant=7.0, duration=0.1, seed=2, options=OPTIONS):
+def _collide(gas, velocity, majorant=7.0, duration=0.1, seed=2, sizes=OPTIONS):
     gas = jax.tree.map(f32, gas)
     key = random.key_from_seed(seed)
-    return jax.jit(lambda v: collide(key, gas, options.plan, v, f32(majorant), f32(duration)))(
+    return jax.jit(lambda v: collide(key, gas, sizes.plan, v, f32(majorant), f32(duration)))(
         velocity
     )
 
@@ -55,7 +54,7 @@ def _rates(gas, steps, count):
     gas, duration = jax.tree.map(f32, gas), f32(0.1)
 
     def one(key):
-        velocity = maxwellian_of(random.fold_in(key, 0))
+        velocity = maxwellian(random.fold_in(key, 0), OPTIONS)
 
         def step(total, number):
             _, tally = collide(
@@ -67,12 +66,6 @@ def _rates(gas, steps, count):
         return total / (20_000 * steps * duration)
 
     return np.asarray(jax.jit(jax.vmap(one))(keys(11, count)), float)
-
-
-def maxwellian_of(key):
-    from jdsmc.state import HomogeneousState  # noqa: PLC0415
-
-    return HomogeneousState.maxwellian(key, OPTIONS, 0.5).velocity
 
 
 @pytest.mark.parametrize("factor", [1.0, 0.75])

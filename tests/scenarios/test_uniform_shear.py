@@ -5,14 +5,13 @@ import numpy as np
 import pytest
 
 import jdsmc
-from jdsmc import ElasticHardSpheres, InelasticHardSpheres
-from jdsmc.measure import pair_cubed
-from jdsmc.observables import MAXWELL_CUBED
-from jdsmc.options import Options
-from jdsmc.scenarios import UniformShear
+from jdsmc import ElasticHardSpheres, InelasticHardSpheres, random
+from jdsmc.measure.moments import pair_cubed
+from jdsmc.scenarios import Options, UniformShear
+from jdsmc.scenarios.homogeneous import maxwellian
+from jdsmc.units import MAXWELL_CUBED
 
-from .gases import maxwellian
-from .windows import relative_error, simulate, window, within
+from .batches import relative_error, simulate, window, within
 
 SQRT_PI = np.sqrt(np.pi)
 
@@ -148,10 +147,9 @@ def test_sampled_pairs_are_not_partners_of_a_collision():
     0; sampled rightly it is that of independent particles, within 4.5 errors (the third
     power of a Maxwellian relative speed has a standard deviation of 1.26 of its mean).
     """
-    rows = tuple(
-        v.reshape(-1, 250)
-        for v in maxwellian(1, Options.checked(20_000, 0.05, "strang", "float32", 1, 1))
-    )
+    options = Options.checked(20_000, 0.05, "strang", "float32", 1)
+    start = maxwellian(random.key_from_seed(1), options, InelasticHardSpheres(1.0), 0.5)
+    rows = tuple(v.reshape(-1, 250) for v in start.velocity)
     doubled = tuple(jnp.concatenate([v, v]) for v in rows)
     expected = MAXWELL_CUBED * 0.5**1.5
     error = 1.26 * expected / np.sqrt(20_000)

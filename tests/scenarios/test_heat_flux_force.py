@@ -1,6 +1,6 @@
 """The heat-flux force: its exact flow, exact constraints, linear response, faults."""
 
-from types import SimpleNamespace
+from dataclasses import replace
 
 import jax
 import jax.numpy as jnp
@@ -9,16 +9,15 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import jdsmc
-from jdsmc import ElasticHardSpheres, FaultError, InelasticHardSpheres, grid, heat, random
-from jdsmc.collide import Collisions
-from jdsmc.engine import Engine
-from jdsmc.history import History
-from jdsmc.options import Options
-from jdsmc.scenarios import HeatFluxForce, heat_flux_force
-from jdsmc.scenarios.homogeneous_cooling import scaled_to_start
+from jdsmc import ElasticHardSpheres, FaultError, InelasticHardSpheres, random
+from jdsmc.collisions.meet import Collisions
+from jdsmc.measure import heat
+from jdsmc.scenarios import HeatFluxForce, Options, heat_flux_force
+from jdsmc.scenarios.scaled import scaled_to_start
 from jdsmc.theory import sonine_elastic, transport
+from jdsmc.units import CONDUCTIVITY
 
-from .windows import within
+from .batches import simulate, standard_error, traced, within
 
 ELASTIC = 1.025218
 """κ'/κ0 at α = 1: the converged Sonine expansion (Gallis, Torczynski and Rader 2004)."""
@@ -34,20 +33,12 @@ def _velocities(seed=1, count=6400):
     return tuple(jnp.asarray((v - v.mean()) / 2**0.5) for v in drawn)
 
 
-def _standard_error(values, axis=0):
-    return np.std(values, axis=axis, ddof=1) / np.sqrt(np.shape(values)[axis])
+OPTIONS = Options.checked(6400, 0.1, "strang", "float32", 8)
 
 
-def _simulate(scene, chunks, *, n_particles=4000, n_realizations=16, seed=1, **options):
-    """The history of one scene and the records of a chunk, with the averages of this scene."""
-    chosen = dict(time_step=0.1, splitting="strang", dtype="float32", steps=8, records=8) | options
-    options = Options.checked(n_particles, **chosen)
-    flat, _ = grid.flatten(scene)
-    engine = Engine(flat, n_realizations, seed, options)
-    history = History(n_particles, options.steps, flat.averages)
-    for _ in range(chunks):
-        history.append(*engine.advance())
-    return history, options.records
+def _without_collisions(monkeypatch):
+    none = Collisions(*(jnp.zeros(()) for _ in range(5)))
+    monkeypatch.setattr(HeatFluxForce, "collide", lambda self, key, v, *rest: (v, none))
 
 
 # The force alone
@@ -113,12 +104,11 @@ def test_both_splittings_apply_the_whole_force(monkeypatch):
     What centring between the halves changes: (½ ε dt/2)² ⟨V_x²⟩ V = 1e-3 for the fastest, V = 3,
     which the flow makes 1.3 times as fast, and the change of it by the square of that.
     """
-    none = Collisions(*(jnp.zeros(()) for _ in range(5)))
-    monkeypatch.setattr(heat_flux_force, "collide", lambda *arguments: (arguments[3], none))
+    _without_collisions(monkeypatch)
     key, one, start = random.key_from_seed(1), jnp.float32(1.0), _velocities()
     stepped = {
-        name: _scene(0.5, 0.5).step(
-            key, start, one, jnp.float32(0.2), SimpleNamespace(plan=None, splitting=name)
+        name: _scene(0.5, 0.5).forced(
+            key, start, one, jnp.float32(0.2), replace(OPTIONS, splitting=name)
         )
         for name in ("strang", "lie")
     }
@@ -135,9 +125,8 @@ def test_both_splittings_apply_the_whole_force(monkeypatch):
 @pytest.mark.parametrize("scheme", ["exact", "paper"])
 def test_every_record_is_at_t0_and_at_rest(scheme):
     """Momentum zero and T = T0 to the rounding of 4000 float32 velocities (1e-6)."""
-    flat, _ = grid.flatten(_scene(0.5, 0.1, scheme))
-    options = Options.checked(4000, 0.1, "strang", "float32", 8, 2)
-    scene, key = jax.tree.map(jnp.float32, grid.take(flat, 0)), random.key_from_seed(3)
+    options = Options.checked(4000, 0.1, "strang", "float32", 8)
+    scene, key = traced(_scene(0.5, 0.1, scheme)), random.key_from_seed(3)
     state = scene.initial(key, options)
     for count in range(6):
         state, record = scene.advance(random.fold_in(key, jnp.uint32(count)), state, options)
@@ -148,12 +137,12 @@ def test_every_record_is_at_t0_and_at_rest(scheme):
 
 def test_odd_averages_vanish_without_a_field():
     """⟨c_x L_k⟩, not divided by the field, both ways; κ' itself is not finite."""
-    history, records = _simulate(_scene(0.5, 0.0), 6, n_particles=4000, seed=4)
+    history, records = simulate(_scene(0.5, 0.0), 6, n_particles=4000, seed=4)
     means = history.point(0, records, history.length)
     for kind, index in (("flux", 1.5), ("marginal", 0.5)):
         for order in heat.ORDERS:
             assert within(heat.sonine(means, kind, order, index))
-    assert not np.any(np.isfinite(_scene(0.5, 0.0).observables(means)["conductivity_ratio"]))
+    assert not np.any(np.isfinite(_scene(0.5, 0.0).observables(means)["modified_conductivity"]))
 
 
 def test_time_is_that_of_a_gas_held_at_t0():
@@ -161,12 +150,12 @@ def test_time_is_that_of_a_gas_held_at_t0():
 
     Were the cooling within a record left out of its time, the ratio would be 0.93 at α = 0.5.
     """
-    history, records = _simulate(_scene(0.5, 0.05), 6, n_particles=8000, seed=5)
+    history, records = simulate(_scene(0.5, 0.05), 6, n_particles=8000, seed=5)
     means = history.point(0, 3 * records, history.length)
     ratio = means["accepted"] * np.sqrt(np.pi)
-    assert _standard_error(ratio) < 2e-3
-    assert abs(np.mean(ratio) - 1) < 4.5 * _standard_error(ratio) + 0.06 / 16
-    np.testing.assert_allclose(means["T1_steps"], 0.5**0.5, rtol=1e-5)
+    assert standard_error(ratio) < 2e-3
+    assert abs(np.mean(ratio) - 1) < 4.5 * standard_error(ratio) + 0.06 / 16
+    np.testing.assert_allclose(means["local_rate"] * np.sqrt(np.pi), 1.0, rtol=1e-5)
 
 
 # Response
@@ -174,7 +163,7 @@ def test_time_is_that_of_a_gas_held_at_t0():
 
 def _response(scene, chunks, skip, **options):
     """κ'/κ0 and b'_k of every realization."""
-    history, records = _simulate(scene, chunks, **options)
+    history, records = simulate(scene, chunks, **options)
     means = history.point(0, skip * records, history.length)
     return {name: values for name, values in scene.observables(means).items() if len(values)}
 
@@ -191,11 +180,11 @@ def test_conductivity_near_theory(granular):
     At α = 0.5: 1.18 and 1.32; the standard one is off by 15% there (paper, section 4), the
     modified one by 5% (Garzó, Santos and Montanero 2007), and the field adds 2% at most.
     """
-    ratio = granular["conductivity_ratio"]
+    ratio = granular["modified_conductivity"]
     standard = float(transport.first_sonine(0.5).modified_conductivity)
     modified = float(transport.modified_first_sonine(0.5).modified_conductivity)
-    assert _standard_error(ratio) < 0.02 * modified
-    assert abs(np.mean(ratio) / modified - 1) < 0.07 + 4.5 * _standard_error(ratio)
+    assert standard_error(ratio) < 0.02 * modified
+    assert abs(np.mean(ratio) / modified - 1) < 0.07 + 4.5 * standard_error(ratio)
     assert np.mean(ratio) < standard
 
 
@@ -207,13 +196,13 @@ def test_both_ways_to_the_sonine_coefficients_agree(granular):
     full, marginal = granular["sonine"], granular["sonine_marginal"]
     for k in range(3):
         assert within(full[:, k] - marginal[:, k])
-    assert _standard_error(full[:, 0] - marginal[:, 0]) < 0.05
+    assert standard_error(full[:, 0] - marginal[:, 0]) < 0.05
     scale = transport.elastic_sonine_coefficient()
-    np.testing.assert_allclose(full[:, 0], scale * granular["conductivity_ratio"], rtol=1e-9)
+    np.testing.assert_allclose(full[:, 0], scale * granular["modified_conductivity"], rtol=1e-9)
 
 
 def test_elastic_conductivity_constant():
-    assert pytest.approx(transport.elastic_conductivity(), rel=1e-14) == heat.ELASTIC_CONDUCTIVITY
+    assert pytest.approx(transport.elastic_conductivity(), rel=1e-14) == CONDUCTIVITY
 
 
 def test_the_papers_scheme_is_of_first_order(monkeypatch):
@@ -222,17 +211,15 @@ def test_the_papers_scheme_is_of_first_order(monkeypatch):
     The exact scheme's own error, from centring between flows, is of second order in the field and
     smaller by far.
     """
-    none = Collisions(*(jnp.zeros(()) for _ in range(5)))
-    monkeypatch.setattr(heat_flux_force, "collide", lambda *arguments: (arguments[3], none))
-
+    _without_collisions(monkeypatch)
     key = random.key_from_seed(1)
 
     def after(scheme, steps, duration=0.5):
         velocity, one = _velocities(), jnp.float32(1.0)
-        scene, options = _scene(0.5, 0.5, scheme), SimpleNamespace(plan=None, splitting="strang")
+        scene = _scene(0.5, 0.5, scheme)
         for _ in range(steps):
             length = jnp.float32(duration / steps)
-            velocity, *_ = scene.step(key, velocity, one, length, options)
+            velocity, *_ = scene.step(key, velocity, one, length, OPTIONS)
             velocity, _ = scaled_to_start(velocity, one)  # so that both count time at T0
         return np.stack(velocity)
 
@@ -250,9 +237,9 @@ def test_linear_response_at_alpha_one():
     values, errors = [], []
     for number, field in enumerate(fields):
         options = dict(n_particles=16_000, n_realizations=24, seed=20 + number)
-        ratio = _response(_scene(1.0, field), 90, 5, **options)["conductivity_ratio"]
+        ratio = _response(_scene(1.0, field), 90, 5, **options)["modified_conductivity"]
         values.append(np.mean(ratio))
-        errors.append(_standard_error(ratio))
+        errors.append(standard_error(ratio))
     design = np.stack([np.ones(3), fields**2], axis=1) / np.array(errors)[:, None]
     (limit, slope), *_ = np.linalg.lstsq(design, np.array(values) / errors, rcond=None)
     error = np.sqrt(np.linalg.inv(design.T @ design)[0, 0])
@@ -269,8 +256,8 @@ def test_time_step():
     def conductivity(dt, seed, chunks):
         steps = round(0.8 / dt)
         options = dict(n_particles=16_000, time_step=dt, steps=steps, records=8, seed=seed)
-        values = _response(_scene(0.5, 0.05), chunks, 4, **options)["conductivity_ratio"]
-        return np.mean(values), _standard_error(values)
+        values = _response(_scene(0.5, 0.05), chunks, 4, **options)["modified_conductivity"]
+        return np.mean(values), standard_error(values)
 
     default, half = conductivity(0.1, 31, 60), conductivity(0.05, 32, 60)
     error = np.hypot(default[1], half[1])
@@ -284,22 +271,24 @@ def test_time_step():
 
 def test_runaway():
     """At ε* = 0.6 particles with V_x < 0 run away: an error with what to change, never a number."""
-    words = r"field = 0\.6 and a time step of [\d.]+ τ0 one is faster than .* v0 .* Reduce field"
+    where = r"field = 0\.6 and a time step of [\d.]+ τ0 one \(of realization \d+\)"
+    words = where + r" is faster than .* v0 .* Reduce field"
     with pytest.raises(FaultError, match=words):
         jdsmc.run(_scene(0.5, 0.6), n_particles=4000, rtol=0.02, seed=0, progress=False)
 
 
 def test_particle_at_infinity_is_a_fault():
     """The worst record may hold NaN beside what tells the reason."""
-    scene, _ = grid.flatten(_scene(0.5, np.array([0.1, 0.6])))
-    record = object.__new__(heat.HeatRecord)  # the faults look at nothing but these two
-    object.__setattr__(record, "runaway", np.full((2, 4, 8), 0.1))
-    object.__setattr__(record, "step", np.full((2, 4, 8), 0.05))
+    scene = _scene(0.5, 0.6)
+    record = object.__new__(heat_flux_force.HeatRecord)  # nothing but these two is looked at
+    object.__setattr__(record, "runaway", np.full((4, 8), 0.1))
+    object.__setattr__(record, "step", np.full((4, 8), 0.05))
     assert not scene.faults(record)
-    record.runaway[1, 2, 3:] = np.nan
-    record.runaway[1, 2, 2] = 5.0
+    record.runaway[2, 3:] = np.nan
+    record.runaway[2, 2] = 5.0
     message = scene.faults(record)
     assert "field = 0.6" in message and "0.05 τ0" in message and "nan" not in message
+    assert "realization 2" in message
 
 
 @pytest.mark.parametrize("field", [-0.1, 2.1, np.nan, np.inf, [0.1, 3.0]])
@@ -309,10 +298,8 @@ def test_field_out_of_range(field):
 
 
 def test_unknown_scheme():
-    with pytest.raises(
-        ValueError, match=r"scheme = 'euler' is unknown; choose one of exact, paper"
-    ):
-        heat_flux_force.check.one_of("scheme", "euler", ("exact", "paper"))
+    with pytest.raises(ValueError, match="scheme = 'euler' is unknown; choose one of exact, paper"):
+        _scene(scheme="euler")
 
 
 def test_gas_with_drag():

@@ -4,10 +4,16 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from jdsmc import ElasticHardSpheres, InelasticHardSpheres, MaxwellMolecules, load, run
+from jdsmc import (
+    ElasticHardSpheres,
+    FaultError,
+    InelasticHardSpheres,
+    MaxwellMolecules,
+    load,
+    run,
+)
 from jdsmc.cli import main
-from jdsmc.faults import FaultError
-from jdsmc.gravity_effect import at_equal_gradient
+from jdsmc.results.gravity_effect import at_equal_gradient
 from jdsmc.scenarios import FourierFlow
 
 SPHERES = InelasticHardSpheres(1.0)
@@ -156,7 +162,7 @@ def test_bad_input_is_refused(changed, message):
 @pytest.mark.parametrize(("layers", "particles"), [(20, 5_000), (200, 10_000)])
 def test_particles_by_default(layers, particles):
     scene = FourierFlow(SPHERES, 0.5, length=4.0, layers=layers)
-    result = run(scene, duration=0.1, n_realizations=4, steps_per_record=1, progress=False)
+    result = run(scene, duration=0.1, steps_per_record=1, progress=False)
     assert result.attrs["n_particles"] == particles
 
 
@@ -169,7 +175,7 @@ def test_a_step_that_crosses_the_slab_is_refused():
 def test_sweep_on_the_command_line(tmp_path, capsys):
     out, picture = tmp_path / "f.h5", tmp_path / "f.png"
     command = "sweep fourier --cold-temperature 0.5 --gravity=-0.02,0 --length 4 --layers 10"
-    sizes = "--particles 500 --realizations 4 --duration 60 --no-progress"
+    sizes = "--particles 500 --realizations 8 --duration 60 --no-progress"
     files = ["--out", str(out), "--plot", str(picture)]
     assert main([*command.split(), *sizes.split(), *files]) == 0
     assert picture.stat().st_size > 10_000

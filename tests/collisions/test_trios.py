@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from jdsmc import InelasticHardSpheres, MaxwellMolecules, random
-from jdsmc.collide_layers import collide_in_layers
-from jdsmc.layers import layer_of, populations, totals
-from jdsmc.trios import groups_in, most_groups, seat, shares
+from jdsmc.collisions.in_cells import collide_in_layers
+from jdsmc.collisions.trios import groups_in, most_groups, seat, shares
+from jdsmc.motion.cells import layer_of, populations, totals
 
 f32 = jnp.float32
 

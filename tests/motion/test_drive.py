@@ -5,12 +5,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from jdsmc.drive import shear, sheared_drag
-from jdsmc.options import Options
+from jdsmc.motion.drive import shear, sheared_drag
 
-from .gases import f32, maxwellian, sums
+from ..helpers import f32, maxwellian, options, sums
 
-OPTIONS = Options.checked(1000, 0.1, "strang", "float32", 1, 1)
+OPTIONS = options(1000)
 
 
 def test_shear_is_the_free_flow():

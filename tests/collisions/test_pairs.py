@@ -1,15 +1,16 @@
 """Pairs are uniform, hits are Poisson to second order, and the step is second order in time."""
 
+from dataclasses import replace
+
 import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
 from jax import lax
 
-from jdsmc import random
-from jdsmc.collide import collide, hits_per_particle, meet
-from jdsmc.options import Options
-from jdsmc.pairs import (
+from jdsmc import InelasticHardSpheres, random
+from jdsmc.collisions.meet import meet
+from jdsmc.collisions.pairs import (
     LARGEST_HITS,
     PairPlan,
     arrange,
@@ -19,8 +20,11 @@ from jdsmc.pairs import (
     take_rows,
     thinning,
 )
+from jdsmc.collisions.whole import collide, hits_per_particle
+from jdsmc.scenarios import UniformShear
 
-from .gases import MaxwellMolecules, f32, keys, maxwellian
+from .. import helpers
+from ..helpers import IsotropicMolecules, f32, keys, maxwellian
 
 
 def _indices(plan):
@@ -170,8 +174,8 @@ def test_two_waves_are_second_order_where_disjoint_pairs_are_first(kappa):
     per step. After 1/x steps disjoint pairs are off by x/2 = 2.5% (1.5%), two waves by x²/6 =
     0.04%, below the error bar of about 0.2%.
     """
-    options = Options.checked(2**16, 0.1, "strang", "float32", 1, 1)
-    gas = MaxwellMolecules(f32(1.0))
+    options = helpers.options(2**16)
+    gas = IsotropicMolecules(f32(1.0))
     duration = f32(kappa * np.sqrt(2.0) / 5.0)
     steps, count = round(10 / kappa), 48
     hits = float(hits_per_particle(options.plan, f32(5.0), duration))
@@ -192,14 +196,11 @@ def test_rows_of_neighbours_equal_single_particles():
     Mean and variance over realizations of T and of the shear stress agree within 4.5 standard
     errors: that neighbours travel together changes neither.
     """
-    from jdsmc import InelasticHardSpheres  # noqa: PLC0415
-    from jdsmc.scenarios import UniformShear  # noqa: PLC0415
-
-    options = Options.checked(2048, 0.1, "strang", "float32", 8, 1)
+    options = helpers.options(2048, steps=8)
     scene = jax.tree.map(f32, UniformShear(InelasticHardSpheres(0.7), 1.0))
     samples = {}
     for plan in (options.plan, PairPlan(2048, 1, 256, 256)):
-        chosen = Options(plan, *(getattr(options, n) for n in _REST))
+        chosen = replace(options, plan=plan)
 
         def one(key, chosen=chosen):
             state = scene.initial(key, chosen)
@@ -220,5 +221,3 @@ def test_rows_of_neighbours_equal_single_particles():
     ratio = a.var(axis=1) / b.var(axis=1)
     assert np.all(np.abs(np.log(ratio)) < 4.5 * np.sqrt(4 / count))
 
-
-_REST = ("time_step", "splitting", "steps", "records", "dtype")

@@ -6,17 +6,18 @@ import numpy as np
 import pytest
 
 from jdsmc import random
-from jdsmc.flight import cross_planes, fly, time_to_floor
-from jdsmc.walls import Walls
+from jdsmc.motion.flight import cross_planes, fly, time_to_floor
+from jdsmc.motion.walls import Walls
 
 f32 = jnp.float32
 KEY = random.key_from_seed(1)
+fly_compiled = jax.jit(fly)  # once for each number of particles
 
 
 def _fly(position, velocity, duration, gravity=0.0, length=10.0, cold=0.05):
     velocity = tuple(jnp.asarray(v, f32) for v in velocity)
     walls = Walls.maxwell(f32(cold))
-    return fly(
+    return fly_compiled(
         *(KEY, walls, jnp.asarray(position, f32), velocity),
         *(f32(gravity), f32(length), f32(duration)),
     )
@@ -29,7 +30,7 @@ def test_flight_without_a_hit_is_a_parabola(gravity):
     np.testing.assert_allclose(position, 5 + 1.5 * vz - 0.5 * gravity * 1.5**2, rtol=1e-6)
     np.testing.assert_allclose(velocity[2], vz - gravity * 1.5, rtol=1e-6)
     np.testing.assert_allclose(velocity[0], vz)
-    assert float(exchange.hits) == 0
+    assert float(exchange.cold_energy) == float(exchange.hot_energy) == 0
 
 
 @pytest.mark.parametrize(
@@ -68,7 +69,6 @@ def test_particles_stay_between_the_walls_however_often_they_hit_them(gravity):
     position, after, exchange = _fly(start, velocity, 1.0, gravity, 0.1, 0.5)
     position = np.asarray(position)
     assert position.min() >= 0 and position.max() <= f32(0.1)
-    assert float(exchange.hits) > 3 * n
     assert float(exchange.lost) == 0
     energy = [
         0.5 * np.sum(np.asarray(v, float) ** 2) + gravity * np.sum(np.asarray(z, float))
@@ -89,7 +89,7 @@ def test_a_hit_takes_the_rest_of_the_step_with_the_new_velocity():
     """From z = 1 with v = -2 for 1 τ0: the wall is hit at 0.5, so z = 0.5 v_new."""
     position, velocity, exchange = _fly([1.0] * 50, np.full((3, 50), -2.0), 1.0)
     np.testing.assert_allclose(position, 0.5 * np.asarray(velocity[2]), rtol=1e-5)
-    assert float(exchange.hits) == 50
+    assert np.all(np.asarray(velocity[2]) > 0)
     assert len(np.unique(np.asarray(velocity[2]))) == 50
 
 

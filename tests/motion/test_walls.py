@@ -7,7 +7,7 @@ import pytest
 from scipy import integrate
 
 from jdsmc import random
-from jdsmc.walls import LARGEST_X, Walls, flux_density, speed_table, wall_gradients
+from jdsmc.motion.walls import LARGEST_X, Walls, flux_density, speed_table, wall_gradients
 
 f32 = jnp.float32
 COUNT = 400_000

@@ -1,4 +1,4 @@
-"""What a run returns: estimates, datasets, files and pictures."""
+"""What a run returns: estimates, datasets, files and pictures of them."""
 
 import h5py
 import matplotlib.pyplot as plt
@@ -7,15 +7,15 @@ import pytest
 import xarray as xr
 
 import jdsmc
-from jdsmc.result import Estimate, Result, check_writable, format_estimate, join_gases
+from jdsmc.results.join import join_gases
+from jdsmc.results.result import Result, check_writable
 from jdsmc.scenarios import UniformShear
 
 
 def simulate(restitution=0.7, gas=jdsmc.InelasticHardSpheres, **options):
-    """A small run that is steady after a second; eight gases in all, to be compiled once."""
-    realizations = 8 // np.size(restitution)
+    """A small run that is steady after a second; groups of four gases, compiled once."""
     steps = {"time_step": 0.1, "steps_per_record": 8}
-    options = {"n_particles": 512, "n_realizations": realizations, "rtol": 0.1} | steps | options
+    options = {"n_particles": 512, "n_realizations": 8, "rtol": 0.1} | steps | options
     return jdsmc.run(UniformShear(gas(restitution), 4.0), progress=False, **options)
 
 
@@ -34,28 +34,6 @@ def transient():
     return simulate(collisions=2.0)
 
 
-@pytest.mark.parametrize(
-    "value, error, text",
-    [
-        (0.33251, 0.00042, "0.33251(42)"),
-        (-1.5, 0.25, "-1.50(25)"),
-        (2.0, 0.0999, "2.00(10)"),  # rounds up to one digit more
-        (2.0, 0.996, "2.0(10)"),
-        (21.2, 9.96, "21(10)"),
-        (1234.5, 99.7, "1234(100)"),
-        (1234.5, 120.0, "1234(120)"),
-        (305.6, 1.0, "305.6(10)"),
-        (0.5, 0.0, "0.5"),
-        (0.5, np.nan, "0.5"),
-        (np.nan, np.nan, "nan"),
-    ],
-)
-def test_format(value, error, text):
-    """The error in units of the last digits."""
-    assert format_estimate(value, error) == text
-    assert str(Estimate(value, error)) == text
-
-
 def test_estimates(steady, sweep):
     """A float for one gas, an array for a sweep; every observable that `run` can aim at."""
     value, error = steady["shear_stress"]
@@ -63,7 +41,7 @@ def test_estimates(steady, sweep):
     assert steady["shear_stress"].error == error
     assert 0 < error < 0.1 * value
     assert steady.is_steady
-    for name in UniformShear.steady_observables:
+    for name in (one.name for one in UniformShear.reports):
         size = (4,) if name == "speed_ratio" else ()
         assert np.shape(steady[name].value) == np.shape(steady[name].error) == size
         assert np.shape(sweep[name].value) == np.shape(sweep[name].error) == (2, *size)
@@ -76,6 +54,50 @@ def test_unknown_observable(steady):
         steady["a17"]
     with pytest.raises(KeyError, match="no observable 'restitution'"):
         steady["restitution"]
+
+
+def test_a_result_is_a_mapping(steady, transient):
+    """Names of what has a steady value: in it, listed, counted; parameters are not among them."""
+    names = list(steady)
+    assert set(names) == {one.name for one in UniformShear.reports} and len(steady) == len(names)
+    assert "temperature" in steady and all(name in steady for name in names)
+    for other in ("a17", "restitution", "temperature_error", "steady_from_time", 3):
+        assert other not in steady
+    assert dict(zip(names, (steady[n] for n in names), strict=True)).keys() == set(names)
+    assert list(transient) == [] and len(transient) == 0 and "temperature" not in transient
+
+
+def test_errors_propagate(steady, sweep):
+    """Within one run through its realizations; -P_xy/nT = η* a* holds in every average."""
+    stress, viscosity = steady["shear_stress"], steady["reduced_viscosity"]
+    rate = steady["reduced_shear_rate"]
+    value, error = stress - viscosity * rate
+    assert abs(value) < 1e-12 and error < 1e-12 < stress.error
+    assert (stress - stress).error == 0.0
+    points = sweep["temperature"]
+    difference = points[1] - points[0]
+    assert difference.error == pytest.approx(np.hypot(*points.error), rel=1e-12)
+    one, other = sweep.at(restitution=0.6), sweep.at(restitution=0.8)
+    assert (other["temperature"] - one["temperature"]).error == pytest.approx(difference.error)
+    assert (one["shear_stress"] - one["shear_stress"]).error == 0.0
+    again = simulate(seed=1)["temperature"]
+    apart = (again - steady["temperature"]).error
+    assert apart == pytest.approx(np.hypot(again.error, steady["temperature"].error), rel=1e-12)
+
+
+def test_one_point_of_a_sweep(sweep):
+    """The numbers of that point; what was not swept or not run is refused."""
+    one = sweep.at(restitution=0.8)
+    assert one.dims == () and sweep.dims == ("restitution",)
+    assert one.attrs["parameter_restitution"] == 0.8
+    for name in sweep:
+        np.testing.assert_array_equal(one[name].value, sweep[name].value[1])
+        np.testing.assert_array_equal(one[name].error, sweep[name].error[1])
+    assert one.series["temperature"].dims == ("sample",)
+    with pytest.raises(KeyError, match=r"restitution = 0\.7 was not run; there are 0\.6, 0\.8"):
+        sweep.at(restitution=0.7)
+    with pytest.raises(KeyError, match="shear_rate was not swept; swept: restitution"):
+        sweep.at(shear_rate=4.0)
 
 
 def test_no_steady_values(transient):
