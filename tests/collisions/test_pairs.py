@@ -220,4 +220,3 @@ def test_rows_of_neighbours_equal_single_particles():
     assert np.all(np.abs(a.mean(axis=1) - b.mean(axis=1)) < 4.5 * error)
     ratio = a.var(axis=1) / b.var(axis=1)
     assert np.all(np.abs(np.log(ratio)) < 4.5 * np.sqrt(4 / count))
-
