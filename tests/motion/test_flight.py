@@ -70,6 +70,8 @@ def test_particles_stay_between_the_walls_however_often_they_hit_them(gravity):
     position = np.asarray(position)
     assert position.min() >= 0 and position.max() <= f32(0.1)
     assert float(exchange.lost) == 0
+    assert np.mean(np.abs(velocity[2])) * 1.0 / 0.1 > 3  # crossings, at the first velocity
+    assert np.mean(np.asarray(after[0]) != velocity[0].astype(np.float32)) > 0.9  # who hit a wall
     energy = [
         0.5 * np.sum(np.asarray(v, float) ** 2) + gravity * np.sum(np.asarray(z, float))
         for v, z in ((velocity, start), (after, position))
