@@ -61,6 +61,11 @@ length if that is swept.""",
 `jdsmc.transport.navier_stokes`; derivation: [impulse response](impulse_response.md). κ0 and η0:
 first Sonine approximation of elastic spheres. Its `result.series` has what is over `lag` against
 `time`, without `running_` and `response_` in the names.""",
+    "CoolingDisks": """\
+Costantini and Puglisi, *Hydrodynamic noise of a cooling gas* (2010), eqs. (6) to (13). Everything
+is in the stationary representation: s = ln(1 + μt)/μ, w = v exp(μs).""",
+    "MolecularDynamics": """\
+As of `CoolingDisks`, the disks moving from event to event.""",
 }
 """What a table cannot say, by scene."""
 
@@ -69,7 +74,8 @@ def page() -> str:
     """The whole page."""
     parts = [HEAD, EVERY_RUN, table([*CLOCKS, *STEADY_FROM])]
     for scene in SCENES:
-        parts += [f"## {scene.__name__} (`jdsmc run {command_of(scene)}`)", NOTES[scene.__name__]]
+        parts.append(f"## {scene.__name__} (`jdsmc run {command_of(scene)}`)")
+        parts += [NOTES[scene.__name__]] if scene.__name__ in NOTES else []
         parts.append(table(scene.reports))
         for one, title in ((scene.evolves, "In `series` only:"), (scene.sampled, DENSITIES)):
             parts += [title, table(one)] if one else []

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..errors import FaultError
 from ..scenarios.base import AbstractScene, weighted_means
 from .batch import point_of
 
@@ -98,7 +99,14 @@ class History:
         return series
 
     def monitored(self, point: int, first, last, names: tuple[str, ...]) -> dict[str, np.ndarray]:
-        """Time averages of some averages over a window: arrays (realizations, ...)."""
+        """Time averages of some averages over a window: arrays (realizations, ...).
+
+        FaultError for a scene that has no such averages.
+        """
+        missing = [name for name in names if name not in self._columns]
+        if missing:
+            scene = type(self.scenes[point]).__name__
+            raise FaultError(f"{scene}.averages lacks {', '.join(missing)}, which it monitors.")
         elapsed = self["elapsed"][point, :, slice(first, last)]
         columns = {name: self[name][point, :, slice(first, last)] for name in names}
         return weighted_means(columns, elapsed)

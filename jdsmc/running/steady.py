@@ -182,12 +182,18 @@ class SteadyTracker:
             history.monitored(point, a, b, self.monitored)
             for a, b in ((first, middle), (middle, last))
         )
-        return min(float(drift_significance(early[n], late[n])) for n in self.monitored)
+        return min(smallest_significance(early[n], late[n]) for n in self.monitored)
 
     @property
     def all_measuring(self) -> bool:
         """True once every point has left its warm-up."""
         return bool(np.all(self.start >= 0))
+
+
+def smallest_significance(early: np.ndarray, late: np.ndarray) -> float:
+    """Of a drift of any component, which are as many chances (Bonferroni)."""
+    each = drift_significance(early, late, axis=0)
+    return float(np.min(each)) * each.size
 
 
 def rms(values) -> float:

@@ -26,4 +26,4 @@ def test_every_name_of_every_scene_is_there(script):
         (own,) = (text for text in sections if text.startswith(f"{scene.__name__} "))
         for one in (*scene.reports, *scene.evolves, *scene.sampled):
             assert f"| `{one.name}` | {one.meaning}" in own.replace("\\|", "|")
-        assert script["NOTES"].keys() == {scene.__name__ for scene in SCENES}
+    assert script["NOTES"].keys() <= {scene.__name__ for scene in SCENES}

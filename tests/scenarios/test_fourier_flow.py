@@ -5,8 +5,10 @@ import pytest
 import xarray as xr
 
 from jdsmc import (
+    AbstractGas,
     ElasticHardSpheres,
     FaultError,
+    InelasticHardDisks,
     InelasticHardSpheres,
     MaxwellMolecules,
     load,
@@ -139,6 +141,44 @@ def test_a_short_run_of_maxwell_molecules_has_a_series_only(tmp_path):
     result = run(scene, duration=2.0, **SMALL | {"n_particles": 500})
     result.save(tmp_path / "f.h5")
     assert "No steady values" in result.table()
+
+
+def test_a_sweep_over_length_is_its_single_runs():
+    """κ* and all else of a point stand on its own layers: bit by bit as far as both go."""
+    options = SMALL | {"n_particles": 600, "duration": 6.0, "seed": 3}
+    lengths = np.array([2.0, 6.0])
+    swept = run(FourierFlow(SPHERES, 0.5, length=lengths, layers=12), **options).series
+    for length in lengths:
+        single = run(FourierFlow(SPHERES, 0.5, length=length, layers=12), **options).series
+        here = swept.sel(length=length)
+        for name in ("kappa_star", "reduced_gradient", "mean_free_paths", "heat_flux"):
+            assert np.sum(np.isfinite(single[name])) > 0.9 * single[name].size
+            both = np.minimum(single[name].shape, here[name].shape)[0]
+            np.testing.assert_array_equal(here[name].values[:both], single[name].values[:both])
+
+
+class Restless(AbstractGas):
+    """Elastic spheres that also collide when they hardly move: no power of the speed."""
+
+    def rate(self, speed):
+        return speed + 1.0
+
+    def momentum_transfer(self, relative_velocity, outgoing):
+        return tuple(0.5 * (g - e) for g, e in zip(relative_velocity, outgoing, strict=True))
+
+
+@pytest.mark.parametrize(
+    ("error", "message", "gas"),
+    [
+        (ValueError, "needs an elastic gas", InelasticHardSpheres([1.0, 0.9])),
+        (ValueError, "needs an elastic gas", ElasticHardSpheres([1.0, 0.9])),
+        (ValueError, "whose pair rate is a power of the relative speed", Restless()),
+        (TypeError, "needs a gas of 3 velocity components", InelasticHardDisks(1.0)),
+    ],
+)
+def test_gases_that_do_not_belong_are_refused(error, message, gas):
+    with pytest.raises(error, match=f"FourierFlow {message}"):
+        FourierFlow(gas, 0.5)
 
 
 @pytest.mark.parametrize(

@@ -302,6 +302,15 @@ def test_unknown_scheme():
         _scene(scheme="euler")
 
 
+@pytest.mark.parametrize("field", [0.0, [0.0, 0.1]])
+def test_no_steady_flux_without_a_field(field):
+    """Refused before anything is computed, where any point of a sweep is without; not in time."""
+    with pytest.raises(ValueError, match=r"HeatFluxForce has no steady state .* field = 0 drives"):
+        jdsmc.run(_scene(0.5, field))
+    result = jdsmc.run(_scene(0.5, field), n_particles=500, duration=1.0, progress=False)
+    assert np.all(result.series["a3"].notnull()) and not result.is_steady
+
+
 def test_gas_with_drag():
     with pytest.raises(TypeError, match="HeatFluxForce needs a gas without drag"):
         HeatFluxForce(ElasticHardSpheres(0.9), 0.1)

@@ -197,10 +197,11 @@ def test_gas_with_drag(alpha):
         HomogeneousCooling(ElasticHardSpheres(alpha))
 
 
-@pytest.mark.parametrize("gas", [None, 0.5, "ihs"])
-def test_what_is_no_gas(gas):
-    with pytest.raises(TypeError, match="gas must be a jdsmc gas"):
-        HomogeneousCooling(gas)
+def test_only_collisions_act():
+    """First-order splitting is refused by the scene, not only on the command line."""
+    scene = HomogeneousCooling(InelasticHardSpheres(0.9))
+    with pytest.raises(ValueError, match="splitting = 'lie' has no meaning here"):
+        jdsmc.run(scene, splitting="lie", duration=1.0)
 
 
 @pytest.mark.slow
