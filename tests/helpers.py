@@ -1,4 +1,4 @@
-"""A gas solved in closed form, gases that state pair physics alone, and what several tests share."""
+"""A gas solved in closed form, gases that state pair physics alone, what several tests share."""
 
 from typing import Any
 

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import numpy as np
 import tyro
+from jdsmc.result import format_estimate
 
 from jdsmc import InelasticHardSpheres, MaxwellMolecules, Result, run
-from jdsmc.result import format_estimate
 from jdsmc.scenarios import FourierFlow
 from jdsmc.theory import sonine_elastic
 

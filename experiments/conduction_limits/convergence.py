@@ -14,9 +14,9 @@ from pathlib import Path
 import matplotlib as mpl
 import numpy as np
 import tyro
+from jdsmc.result import format_estimate
 
 from jdsmc import InelasticHardSpheres, Result, run
-from jdsmc.result import format_estimate
 from jdsmc.scenarios import FourierFlow
 
 from ..publish import output_folder, results_folder

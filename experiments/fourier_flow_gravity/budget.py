@@ -6,10 +6,10 @@ At the paper's reference example with g = 0 and -0.016: κ* at g = 0, Δκ* at -
 from typing import NamedTuple
 
 import numpy as np
-
-from jdsmc import Estimate, Result
 from jdsmc.conduction import WINDOW
 from jdsmc.gravity_effect import linear_response, means, rule
+
+from jdsmc import Estimate, Result
 from jdsmc.stats import jackknife
 
 from .data import Measurements

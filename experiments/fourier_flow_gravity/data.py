@@ -4,9 +4,9 @@ from functools import cached_property
 from pathlib import Path
 
 import xarray as xr
+from jdsmc.gravity_effect import at_equal_gradient, linear_response
 
 from jdsmc import Estimate, Result
-from jdsmc.gravity_effect import at_equal_gradient, linear_response
 
 from ..store import obtain
 from .systems import (

@@ -8,9 +8,9 @@ error that all rows of a table have in common, such as that of ε0, is not in th
 from typing import NamedTuple
 
 import numpy as np
+from jdsmc.gravity_effect import linear_response
 
 from jdsmc import Estimate
-from jdsmc.gravity_effect import linear_response
 
 from .data import Measurements
 from .reference import COLUMNS, HALF_WIDTHS, table

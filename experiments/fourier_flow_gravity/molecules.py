@@ -4,8 +4,9 @@
 adds what its walls do, and orders beyond the second.
 """
 
-from jdsmc import Estimate, Result, conduction
 from jdsmc.gravity_effect import at_equal_gradient, linear_response, means
+
+from jdsmc import Estimate, Result, conduction
 from jdsmc.stats import jackknife
 
 FIRST_ORDER = 46.0 / 5.0

@@ -6,9 +6,9 @@ from dataclasses import asdict, dataclass, field
 from typing import Literal, NamedTuple
 
 import numpy as np
+from jdsmc.options import TIME_STEP
 
 from jdsmc import InelasticHardSpheres, MaxwellMolecules, Result, run
-from jdsmc.options import TIME_STEP
 from jdsmc.scenarios import FourierFlow
 
 

@@ -6,9 +6,9 @@ from dataclasses import asdict, dataclass, field, replace
 from typing import Literal
 
 import numpy as np
+from jdsmc.options import TIME_STEP
 
 from jdsmc import InelasticHardSpheres, Result, run
-from jdsmc.options import TIME_STEP
 from jdsmc.scenarios import HeatFluxForce, HomogeneousCooling
 from jdsmc.transport import navier_stokes
 

@@ -9,7 +9,6 @@ of the time step, from the fits of this experiment. The picture shows both in qu
 from typing import NamedTuple
 
 import numpy as np
-
 from jdsmc.impulse.kicks import COPIES
 from jdsmc.impulse.response import GAP, WARM_UP
 

@@ -1,7 +1,6 @@
 """Statements of sections III to VI on steady values of the two gases."""
 
 import numpy as np
-
 from jdsmc.observables import VISCOSITY_TIME
 
 from ..claims import Claim, Finding, percent

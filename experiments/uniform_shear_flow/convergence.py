@@ -4,9 +4,9 @@ import json
 from typing import NamedTuple
 
 import numpy as np
+from jdsmc.options import TIME_STEP
 
 from jdsmc import Estimate, Result
-from jdsmc.options import TIME_STEP
 
 from .data import Term, actual_steps, at_point, estimate_in
 from .systems import FAST, Case

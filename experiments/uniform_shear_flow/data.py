@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-
-from jdsmc import Estimate, Result
 from jdsmc.gas import RATE_FACTORS
 from jdsmc.options import STEPS_PER_RECORD
+
+from jdsmc import Estimate, Result
 
 from .systems import Case
 

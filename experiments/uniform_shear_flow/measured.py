@@ -2,9 +2,9 @@
 
 import numpy as np
 import xarray as xr
+from jdsmc.observables import VISCOSITY_TIME, maxwell_speed_classes
 
 from jdsmc import Estimate
-from jdsmc.observables import VISCOSITY_TIME, maxwell_speed_classes
 
 from ..compare import Span
 from . import correlation, tails

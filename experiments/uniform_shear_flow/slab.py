@@ -7,9 +7,9 @@ from typing import Literal
 
 import numpy as np
 import xarray as xr
+from jdsmc.gas import RATE_FACTORS
 
 from jdsmc import Estimate, Result, run
-from jdsmc.gas import RATE_FACTORS
 from jdsmc.scenarios import ShearedSlab
 
 from ..store import obtain

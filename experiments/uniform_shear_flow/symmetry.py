@@ -9,9 +9,9 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
+from jdsmc.options import Options
 
 from jdsmc import random
-from jdsmc.options import Options
 
 from .systems import FAST, Case
 

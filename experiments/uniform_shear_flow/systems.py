@@ -4,9 +4,9 @@ import json
 from dataclasses import asdict, dataclass, field, replace
 
 import numpy as np
+from jdsmc.options import TIME_STEP
 
 from jdsmc import ElasticHardSpheres, InelasticHardSpheres, Result, run
-from jdsmc.options import TIME_STEP
 from jdsmc.scenarios import UniformShear
 
 FAST, SLOW = 4.0, 0.1

@@ -51,7 +51,7 @@ class Engine:
             self._keys.append(jax.device_put(_stacked(_group(keys, first, size)), device))
         work = list(zip(self._scenes, self._keys, strict=True))
         self._pool = ThreadPoolExecutor(min(len(work), max(cores(), len(devices))))
-        self.states: list[Any] = self._share(lambda n: _start(*work[n], options))
+        self.states: list[Any] = self._share(lambda n: _start(work[n][0], work[n][1], options))
 
     def advance(self):
         """One chunk. Returns (records, sample): pytrees of arrays (points, realizations, ...)."""
@@ -116,12 +116,18 @@ def _each(function, *trees):
 
 def gas_keys(scene: AbstractScene, n_realizations: int, seed: int) -> list:
     """A key for every realization of one point: from the seed and the values of its numbers."""
-    key = random.key_from_seed(seed)
-    for word in sweep.fingerprint(scene):
-        key = random.fold_in(key, np.uint32(word))
-    numbers = jnp.arange(n_realizations, dtype=jnp.uint32)
-    keys = jax.vmap(lambda r: random.fold_in(key, r))(numbers)
-    return [jax.tree.map(lambda x: x[r], keys) for r in range(n_realizations)]  # noqa: B023
+    words = np.array(sweep.fingerprint(scene), np.uint32)
+    keys = _keys(random.key_from_seed(seed), words, np.arange(n_realizations, dtype=np.uint32))
+    high, low = (np.asarray(word) for word in keys)
+    return [random.Key(*both) for both in zip(high, low, strict=True)]
+
+
+@jax.jit
+def _keys(key, words, realizations):
+    """Compiled: a sweep of a hundred points makes a hundred of these."""
+    for k in range(2):
+        key = random.fold_in(key, words[k])
+    return jax.vmap(lambda r: random.fold_in(key, r))(realizations)
 
 
 def group_size(gases: int, scene: AbstractScene, options: Options) -> int:
@@ -139,7 +145,7 @@ def _group(items: list, first: int, size: int) -> list:
 
 
 def _stacked(keys: list):
-    return jax.tree.map(lambda *words: jnp.stack(words), *keys)
+    return jax.tree.map(lambda *words: np.stack(words), *keys)
 
 
 def _placed(scenes: list, device, options: Options):

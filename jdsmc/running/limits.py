@@ -43,9 +43,7 @@ class Limits:
         self.observables = _names(scene, observable)
         self.fixed = duration is not None or collisions is not None
         self.monitored = scene.monitored
-        self.approaches = [
-            s.approach(options) if s.has_steady_state() else UNKNOWN for s in scenes
-        ]
+        self.approaches = [s.approach(options) if s.has_steady_state() else UNKNOWN for s in scenes]
         without = [scene for scene in scenes if not scene.has_steady_state()]
         self.can_be_steady = not without
         if not self.fixed and without:

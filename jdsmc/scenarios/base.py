@@ -47,6 +47,8 @@ class AbstractScene(eqx.Module):
                 kicks = jdsmc.random.normals(key, velocity, jdsmc.random.Stream.OWN)
                 return tuple(v + width * k for v, k in zip(velocity, kicks)), tally
 
+    (`docs/own_scene.md` makes half of the kicks before the collisions: that is second order.)
+
     Methods of the first group are pure and traced. All others run on the host in float64 and see
     ONE gas at ONE point of a sweep: every number of the scene is a scalar.
     """

@@ -17,7 +17,7 @@ from .. import random
 from ..collisions.in_cells import collide_in_layers
 from ..collisions.meet import Collisions
 from ..fields import count, number
-from ..gases import AbstractGas
+from ..gases import InelasticHardDisks
 from ..motion.drive import held_at, mean
 from ..motion.plane import cell_of, fly, still, transverse_modes
 from ..types import Key, Positions, Velocities
@@ -55,7 +55,7 @@ class CoolingDisks(AbstractCoolingDisks):
     default_time_step: ClassVar[float] = 0.07
     default_steps: ClassVar[int] = 10
 
-    gas: AbstractGas
+    gas: InelasticHardDisks
     density: Any = number("density n σ²", low=0.0, high=0.5, low_included=False, default=0.01)
     growth_rate: Any = number(
         "growth rate μ of the scaled velocities",

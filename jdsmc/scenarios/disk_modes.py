@@ -78,6 +78,7 @@ class AbstractCoolingDisks(AbstractScene):
     √(8 N nσ²) λ0.
     """
 
+    gas: eqx.AbstractVar[InelasticHardDisks]
     density: eqx.AbstractVar[Any]
     growth_rate: eqx.AbstractVar[Any]
 

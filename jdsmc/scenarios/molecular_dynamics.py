@@ -7,12 +7,9 @@ import numpy as np
 from .. import events
 from ..collisions.meet import Collisions
 from ..fields import number
-from ..gases import AbstractGas
+from ..gases import InelasticHardDisks
 from .disk_modes import AbstractCoolingDisks, DiskMoments, DiskRecord
 from .options import Options
-
-CHUNK = 16
-"""Samples made in one go."""
 
 
 class MolecularDynamics(AbstractCoolingDisks):
@@ -32,7 +29,7 @@ class MolecularDynamics(AbstractCoolingDisks):
     default_time_step: ClassVar[float] = 0.07
     default_steps: ClassVar[int] = 10
 
-    gas: AbstractGas
+    gas: InelasticHardDisks
     density: Any = number("density n σ²", low=0.0, high=0.5, low_included=False, default=0.01)
     growth_rate: Any = number(
         "growth rate μ of the scaled velocities",
@@ -64,18 +61,18 @@ class MolecularDynamics(AbstractCoolingDisks):
         )
         now = events.faults(state)
         modes = samples.modes[0]
-        moments = DiskMoments(
+        modes_and_moments: Any = (
             np.stack([modes.real, modes.imag], axis=-1),
             samples.temperature[0],
             samples.fourth_moment[0],
         )
-        tally = Collisions(
-            *(np.asarray(samples.collisions[0], float), samples.energy_lost[0]),
-            *(np.zeros(()), np.zeros(()), np.zeros(())),
-            watched={name: float(now[name] - before[name]) for name in now},
+        none = np.zeros(())
+        sums: Any = (samples.collisions[0], samples.energy_lost[0], none, none, none)
+        watched = {name: float(now[name] - before[name]) for name in now}
+        sizes: Any = (np.asarray(spacing), np.array([options.n_particles] * 2, float))
+        return state, DiskRecord(
+            DiskMoments(*modes_and_moments), Collisions(*sums, watched=watched), *sizes
         )
-        counts = np.array([options.n_particles, options.n_particles], float)
-        return state, DiskRecord(moments, tally, np.asarray(spacing), counts)
 
     def faults(self, record: DiskRecord) -> str:
         """What the events met that should not be."""

@@ -79,7 +79,8 @@ def _walls(panel, result, dims) -> None:
         length = float(common.parameter(result, here, "length"))
         if steady["z"].attrs.get("units") == "share of the whole":
             length = 1.0
-        style = {"color": f"C{number}" if dims else "k", "ms": 7, "ls": "none", "clip_on": False}
+        own = "cold_temperature" in dims or "length" in dims
+        style = {"color": f"C{number}" if own else "k", "ms": 7, "ls": "none", "clip_on": False}
         text = None if number else "walls"
         panel.plot([0.0, length], [cold, 1.0], marker="x", label=text, zorder=5, **style)
 
@@ -94,7 +95,8 @@ def _conductivity(panel, steady: xr.Dataset, dims, x: str) -> None:
             np.array([float(one[key].values[halfway(one)]) for one in row])
             for key in ("kappa_star", "kappa_star_error")
         )
-        pictures.bars(panel, values, value, error, number, common.label(steady, point))
+        style = {} if others else {"color": "k"}
+        pictures.bars(panel, values, value, error, number, common.label(steady, point), **style)
     panel.set(xlabel=common.with_unit(steady, x), ylabel="κ* halfway, in mean free paths")
 
 

@@ -101,6 +101,8 @@ def _steady_from(steady: xr.Dataset) -> list[str]:
     if "steady_from_time" not in steady:
         return []
     time, collisions = (float(steady[f"steady_from_{c}"]) for c in ("time", "collisions"))
+    if time == 0.0:  # nothing had to be waited for
+        return []
     return [f"steady from t = {time:.1f} τ0, s = {collisions:.0f} collisions per particle"]
 
 

@@ -111,7 +111,7 @@ def against_time(panel, result, name: str, clock: str = "time", log: bool = Fals
         start = float(result.steady[f"steady_from_{clock}"])
         end = float(np.nanmax(series[clock].values))
         value = float(result.steady[name])
-        panel.plot([start, end], [value, value], "k:", lw=1.5, label="steady value")
+        panel.plot([start, end], [value, value], "C3-", lw=1.2, label="steady value")
     panel.set_xlabel(common.with_unit(series, clock))
     panel.set_ylabel(common.with_unit(series, name))
     if log:

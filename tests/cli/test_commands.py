@@ -79,7 +79,7 @@ def test_ctrl_c(interrupted, status, capsys):
     assert status(f"{line} {SMALL}") == 0
     assert "ehs:" not in capsys.readouterr().out
     result = jdsmc.load("x.h5")
-    assert list(result.to_xarray()["gas"].values) == ["ihs"]
+    assert list(result.steady["gas"].values) == ["ihs"]
     assert result.attrs["stopped"].startswith("interrupted")
     assert result.series.sizes["sample"] > 0
 

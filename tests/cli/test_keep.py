@@ -116,7 +116,7 @@ def test_fault_in_the_second_gas(measured, monkeypatch, status, capsys):
     monkeypatch.setattr("jdsmc.cli.simulate.run", run)
     assert status("sweep shear --gas ihs,ehs --out x.h5") == 1
     assert "jdsmc: too wild" in capsys.readouterr().err
-    assert list(jdsmc.load("x.h5").to_xarray()["gas"].values) == ["ihs", "ehs"]
+    assert list(jdsmc.load("x.h5").steady["gas"].values) == ["ihs", "ehs"]
 
 
 def test_ctrl_c_outside_a_run(monkeypatch, status, capsys):

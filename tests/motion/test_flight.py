@@ -70,6 +70,8 @@ def test_particles_stay_between_the_walls_however_often_they_hit_them(gravity):
     position = np.asarray(position)
     assert position.min() >= 0 and position.max() <= f32(0.1)
     assert float(exchange.lost) == 0
+    assert np.mean(np.abs(velocity[2])) * 1.0 / 0.1 > 3  # crossings, at the first velocity
+    assert np.mean(np.asarray(after[0]) != velocity[0].astype(np.float32)) > 0.9  # who hit a wall
     energy = [
         0.5 * np.sum(np.asarray(v, float) ** 2) + gravity * np.sum(np.asarray(z, float))
         for v, z in ((velocity, start), (after, position))
@@ -87,7 +89,7 @@ def test_endless_bouncing_is_counted_as_lost():
 
 def test_a_hit_takes_the_rest_of_the_step_with_the_new_velocity():
     """From z = 1 with v = -2 for 1 τ0: the wall is hit at 0.5, so z = 0.5 v_new."""
-    position, velocity, exchange = _fly([1.0] * 50, np.full((3, 50), -2.0), 1.0)
+    position, velocity, _ = _fly([1.0] * 50, np.full((3, 50), -2.0), 1.0)
     np.testing.assert_allclose(position, 0.5 * np.asarray(velocity[2]), rtol=1e-5)
     assert np.all(np.asarray(velocity[2]) > 0)
     assert len(np.unique(np.asarray(velocity[2]))) == 50

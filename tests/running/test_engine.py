@@ -101,17 +101,13 @@ def test_groups_of_another_size_differ_by_rounding(monkeypatch):
     (1e-7 a step, 8 steps; 1e-5 leaves room for a few of them to add up).
     """
     scenes, _ = sweep.points(SHEARED)
-    sizes = helpers.options(512, 0.05, steps=4)
+    sizes = helpers.options(256, 0.05, steps=4, samples=8)
     together, _ = Engine(scenes, 4, 1, sizes).advance()
     monkeypatch.setattr(engine, "MOST_TOGETHER", 1)
     alone, _ = Engine(scenes, 4, 1, sizes).advance()
-    first = slice(0, 3)
-    for ours, theirs in ((together, alone),):
-        np.testing.assert_array_equal(
-            ours.tally.accepted[..., first], theirs.tally.accepted[..., first]
-        )
-        heat = [m.xx + m.yy + m.zz for m in (ours.moments, theirs.moments)]
-        np.testing.assert_allclose(heat[0][..., first], heat[1][..., first], rtol=1e-5)
+    np.testing.assert_array_equal(together.tally.accepted, alone.tally.accepted)
+    heat = [m.xx + m.yy + m.zz for m in (together.moments, alone.moments)]
+    np.testing.assert_allclose(heat[0], heat[1], rtol=1e-5)
 
 
 @pytest.mark.parametrize(
