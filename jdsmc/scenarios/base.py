@@ -9,7 +9,8 @@ import numpy as np
 
 from ..collisions.meet import Collisions
 from ..fields import check_fields, text
-from ..gases import AbstractGas, ElasticHardSpheres, check_gas
+from ..gases import AbstractGas, ElasticHardSpheres
+from ..gases.base import check_gas
 from ..measure.observable import Observable
 from ..types import Scalar
 from .approach import UNKNOWN, Approach
