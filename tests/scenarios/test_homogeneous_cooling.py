@@ -15,7 +15,7 @@ from jdsmc.units import MAXWELL_CUBED
 from .batches import simulate, standard_error, within
 
 ALPHAS = [0.5, 0.9]
-CHUNKS, SKIP = 12, 5
+CHUNKS, SKIP = 14, 5
 """Simulated, and left out: 5 chunks of 64 steps are 15 collisions per particle, as far as any
 memory of the Maxwellian goes (it decays within two of them)."""
 
