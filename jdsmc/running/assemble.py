@@ -50,13 +50,21 @@ class Labels:
             if one.symbol and not wrong:
                 attributes["symbol"] = one.symbol
             array = np.asarray(values)
-            own = one.dims or tuple(f"{name}_{k}" for k in range(array.ndim - 1 - len(extra)))
+            own = one.dims or self.likely_dims(name, array.shape[1 + len(extra) :])
             data[name] = (
                 (*self.dims, *extra, *own),
                 array.reshape(self.shape + array.shape[1:]),
                 attributes,
             )
         return data.assign_coords({n: c for n, c in self.axes.items() if n in data.dims})
+
+    def likely_dims(self, name: str, shape: tuple[int, ...]) -> tuple[str, ...]:
+        """Of what no observable describes: the only axis of that length, or one of its own."""
+        dims = []
+        for k, length in enumerate(shape):
+            fits = [axis for axis, (_, values, _) in self.axes.items() if len(values) == length]
+            dims.append(fits[0] if len(fits) == 1 and fits[0] not in dims else f"{name}_{k}")
+        return tuple(dims)
 
 
 def common_axes(each: list[dict]) -> dict:
