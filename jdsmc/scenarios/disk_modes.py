@@ -155,9 +155,7 @@ class AbstractCoolingDisks(AbstractScene):
 
     def lags(self, n_real: int, spacing: float) -> tuple[int, np.ndarray]:
         """Samples between two lags, and the lags (τ0)."""
-        wanted = 5.0 / self.companion(n_real).decay_rate / (LAGS - 1)
-        stride = max(1, math.ceil(wanted / spacing))
-        return stride, stride * spacing * np.arange(LAGS)
+        return lags_of(self.companion(n_real).decay_rate, spacing)
 
     def averages(self, record: DiskRecord) -> dict[str, np.ndarray]:
         """Modes (complex) and moments of each sample."""
@@ -253,6 +251,12 @@ class AbstractCoolingDisks(AbstractScene):
             else "; an elastic gas is stable at any size."
         )
         return " ".join([place, *modes.doubts(run, block, len(means["power"]), plan.pooled)])
+
+
+def lags_of(decay_rate: float, spacing: float) -> tuple[int, np.ndarray]:
+    """Samples between two lags, and the lags (τ0), of a mode that decays so fast."""
+    stride = max(1, math.ceil(5.0 / decay_rate / (LAGS - 1) / spacing))
+    return stride, stride * spacing * np.arange(LAGS)
 
 
 def _slowest(series: dict[str, np.ndarray]) -> np.ndarray:
