@@ -36,7 +36,7 @@ def at_equal_gradient(
     no point has that ε0; its errors are NaN if that happens with one realization left out.
     Raises ValueError for another sweep, or if no state has such a point.
     """
-    value, error = jackknife(means(result), rule(result, window, gradient), axis=1)
+    value, error, _ = jackknife(means(result), rule(result, window, gradient), axis=1)
     if not np.any(np.isfinite(value["z0"])):
         raise ValueError("no layer has the reduced gradient asked for; give another gradient.")
     gravity = result.to_xarray()["gravity"].values
@@ -81,7 +81,7 @@ def linear_response(
             "reduced_gradient": start,
         }
 
-    value, error = jackknife(means(result), fitted, axis=1)
+    value, error, _ = jackknife(means(result), fitted, axis=1)
     return {name: Estimate(float(value[name]), float(error[name])) for name in value}
 
 
