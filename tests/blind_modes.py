@@ -1,8 +1,8 @@
-"""Twenty cheap runs of cooling disks held to the deterministic theory: `python -m tests.blind_modes`.
+"""Twenty cheap runs of cooling disks held to theory: `python -m tests.blind_modes FOLDER`.
 
-DSMC and molecular dynamics at N n σ² = 20, elastic and at α = 0.8. Scores are (value - theory)/error
-of C(0), η and η1: their mean over the seeds must be within 0.5, and 88% of them within 2. A second
-call goes on where the first was ended.
+DSMC and molecular dynamics at N n σ² = 20, elastic and at α = 0.8. Scores are (value - theory)/
+error of C(0), η and η1: their mean over the seeds must be within 0.5, and 88% of them within 2. A
+second call goes on where the first was ended.
 
 What a run differs in from the theory must be small against its error of some 4%: cells of 0.3 λ0
 with five fictive particles; disks at n σ² = 0.02, with Enskog's theory on the other side.

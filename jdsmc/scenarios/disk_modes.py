@@ -161,8 +161,10 @@ class AbstractCoolingDisks(AbstractScene):
         """Modes (complex) and moments of each sample."""
         m: Any = record.moments
         counts = np.asarray(record.counts)
+        modes_now = m.modes[..., 0] + 1j * m.modes[..., 1]
         return {
-            "modes": m.modes[..., 0] + 1j * m.modes[..., 1],
+            "modes": modes_now,
+            "slowest_power": np.mean(np.abs(modes_now[..., :2]) ** 2, axis=-1),
             "temperature": m.temperature,
             "square": m.temperature**2,
             "fourth": m.fourth,
@@ -174,9 +176,7 @@ class AbstractCoolingDisks(AbstractScene):
     def evolution(self, means: dict) -> dict:
         """Temperature, a2 and rates against time, and the power of the slowest modes."""
         norm = means["simulated"] * INITIAL_TEMPERATURE
-        return self.moments(means) | {
-            "mode_power": np.mean(np.abs(means["modes"][..., :2]) ** 2, axis=-1) / norm
-        }
+        return self.moments(means) | {"mode_power": means["slowest_power"] / norm}
 
     def moments(self, means: dict) -> dict:
         """T~, a2 and the rates."""

@@ -85,7 +85,7 @@ def draw(result):
     """T~(s), |ξ|²(s) and C(s); for a sweep the viscosities in place of |ξ|²."""
     dims = common.dimensions(result)
     x = pictures.across(result.steady, dims) if result.is_steady else ""
-    figure, panels = pictures.grid(2 + result.is_steady + bool(x), 2 if x else 0)
+    figure, panels = pictures.grid(2 + result.is_steady + bool(x), 2 if x else 3)
     pictures.against_time(panels[0], result, "temperature")
     if x:
         _viscosities(panels[1:3], result, dims, x)
