@@ -1,66 +1,62 @@
-"""Our checks: linearity in the field, time steps, the cooling state."""
+"""Our checks: linearity in the field, time steps, the cooling state, kicks, work to precision."""
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from jdsmc.theory import homogeneous_cooling
+from jdsmc.theory.transport import first_sonine, modified_first_sonine
 
-from ...style import COLOURS, figure
-from ..convergence import TOLERANCE, scheme
-from ..data import Measurements
-from ..limits import CONDUCTIVITY, FITS, SONINE, limit
-from ..systems import PAPER_FIELD, STUDY_FIELD, STUDY_RESTITUTION
+from ...numbers import stack
+from ...style import COLOURS, figure, points
+from ..cases import PAPER_FIELD, STUDY_FIELD, STUDY_RESTITUTION
+from ..coefficients import NAMES, coefficient, elastic
+from ..data import PAPER, Heat
+from ..limits import CONDUCTIVITY, SONINE, at_field, limit, limits, used
+from ..numerics import TOLERANCE, kicks, methods, scheme
+from .paper import BARS, FINE
 
-POINTS = {"fmt": "o", "markersize": 5, "capsize": 2, "markerfacecolor": "none"}
 
-
-def linearity(data: Measurements) -> Figure:
+@PAPER.figure("linearity")
+def linearity(data: Heat) -> Figure:
     """Every quantity against ε*², with the fits; dotted: the paper's field."""
     found, axes = figure(2, 2, 9.5, 7.5, sharex=True)
     for ax, quantity in zip(axes.ravel(), (CONDUCTIVITY, *SONINE), strict=True):
-        chosen = FITS[quantity.order]
+        fields = np.array(used(data, quantity))
         for alpha, colour in zip((0.3, 0.5, 1.0), COLOURS, strict=False):
-            value, error = data.against_field(quantity.name, alpha, quantity.order)
-            strengths = np.array(data.fields)
-            used = strengths <= chosen.strongest + 1e-12
+            values = stack(at_field(data, quantity, alpha, f) for f in fields)
             fitted = limit(data, quantity, alpha)
-            scale = abs(fitted.best[0]) if quantity is CONDUCTIVITY else 1.0
-            shift = fitted.best[0] if quantity is CONDUCTIVITY else 0.0
-            ax.errorbar(
-                strengths[used] ** 2,
-                (value[used] - shift) / scale,
-                error[used] / scale,
-                color=colour,
-                label=f"α = {alpha:g}",
-                **POINTS,
-            )
-            line = np.linspace(0, chosen.strongest, 60)
-            curve = np.array([fitted.at(float(x)).value for x in line])
-            ax.plot(line**2, (curve - shift) / scale, color=colour, lw=1)
+            line = np.linspace(0, fields[-1], 60)
+            curve = np.array([float(fitted.value(float(x))) for x in line])
+            if quantity is CONDUCTIVITY:
+                best = float(fitted.limit)
+                values, curve = values / best - 1.0, curve / best - 1.0
+            points(ax, fields**2, values, color=colour, label=f"α = {alpha:g}", markersize=5)
+            ax.plot(line**2, curve, color=colour, lw=1)
         ax.axvline(PAPER_FIELD**2, color="black", linestyle=":", linewidth=1)
         relative = "relative change of " if quantity is CONDUCTIVITY else ""
         ax.set(ylabel=f"{relative}{quantity.label}")
-    axes[0, 0].legend(fontsize=8, title="error bars: 1 s.e.", title_fontsize=8)
+    axes[0, 0].legend(fontsize=8, **BARS)
     for ax in axes[1]:
         ax.set_xlabel("ε*²")
     return found
 
 
-def time_step(data: Measurements) -> Figure:
+@PAPER.figure("time_step")
+def time_step(data: Heat) -> Figure:
     """κ' against the time step: exact flow and symmetric splitting, and the paper's step."""
     found, axes = figure(1, 1, 6.4, 4.4)
     ax = axes[0, 0]
-    limit_of = scheme(data, "exact").limit.value.value
+    best = float(scheme(data, "exact").fit.limit)
     for name, label, colour in (
         ("exact", "exact flow, symmetric (dt²)", COLOURS[0]),
         ("paper", "paper's step (4.1) (dt)", COLOURS[1]),
     ):
         run = scheme(data, name)
-        value, error = (100 * x / limit_of for x in run.values)
-        ax.errorbar(run.made, value - 100, error, color=colour, label=label, **POINTS)
-        line = np.linspace(0, run.made.max(), 50)
-        fitted = np.array([run.limit.at(float(x)).value for x in line])
-        ax.plot(line, 100 * (fitted / limit_of - 1), color=colour, lw=1)
+        values = 100.0 * (stack(run.values) / best - 1.0)
+        points(ax, run.made, values, color=colour, label=label, markersize=5)
+        line = np.linspace(0, max(run.made), 50)
+        fitted = np.array([float(run.fit.value(float(x))) for x in line])
+        ax.plot(line, 100 * (fitted / best - 1), color=colour, lw=1)
     span = 100 * TOLERANCE
     ax.axhspan(-span, span, color="0.9", zorder=0, label=f"±{span:g}%")
     ax.set(xlabel="time step dt/τ", ylabel="κ' over its limit dt → 0, in %: minus 100")
@@ -70,20 +66,66 @@ def time_step(data: Measurements) -> Figure:
     return found
 
 
-def cooling(data: Measurements) -> Figure:
+@PAPER.figure("cooling_state")
+def cooling(data: Heat) -> Figure:
     """a2, a3 and ζ of the cooling state against α, with (2.16) and (2.14)."""
     found, axes = figure(3, 1, 6.4, 8.5, sharex=True)
-    alpha, fine = np.array(data.restitutions), np.linspace(0.29, 1, 100)
-    a2 = homogeneous_cooling.kurtosis(fine)
+    a2 = homogeneous_cooling.kurtosis(FINE)
     lines = {"a2": ("(2.16)", a2), "a3": (None, None)}
     lines["relative_speed_cubed"] = ("(2.14)", 1 + 3 / 16 * a2)
     for ax, (name, (label, line)) in zip(axes[:, 0], lines.items(), strict=True):
-        pairs = [data["cooling"].value(name, a) for a in alpha]
-        value, error = (np.array(column) for column in zip(*pairs, strict=True))
-        ax.errorbar(alpha, value, error, color=COLOURS[0], label="jdsmc (1 s.e.)", **POINTS)
+        values = data.over_restitutions(lambda a, name=name: data["cooling"].value(name, a))
+        points(ax, data.restitutions, values, color=COLOURS[0], label="jdsmc (1 s.e.)")
         if line is not None:
-            ax.plot(fine, line, "k:", lw=1.2, label=label)
+            ax.plot(FINE, line, "k:", lw=1.2, label=label)
         ax.set_ylabel({"relative_speed_cubed": "ζ/ζ of a Maxwellian"}.get(name, name))
         ax.legend(fontsize=8)
     axes[-1, 0].set_xlabel("coefficient of restitution α")
+    return found
+
+
+@PAPER.figure("navier_stokes")
+def navier_stokes(data: Heat) -> Figure:
+    """κ', κ, nμ/Tκ0, η by kicks (ε → 0) beside both Sonine approximations and elastic values."""
+    found, axes = figure(2, 2, 9.5, 7, sharex=True)
+    for ax, (name, label) in zip(axes.ravel(), NAMES.items(), strict=True):
+        values = data.over_restitutions(lambda a, name=name: coefficient(data, name, a).limit)
+        look = {"fmt": "^", "color": COLOURS[1], "label": "kicks, ε → 0"}
+        points(ax, data.restitutions, values, **look)
+        ax.plot(FINE, getattr(first_sonine(FINE), name), "k-", lw=1, label="first Sonine")
+        modified = getattr(modified_first_sonine(FINE), name)
+        ax.plot(FINE, modified, "k--", lw=1, label="modified first Sonine")
+        ax.plot(1.0, elastic(name), "k*", markersize=11, markerfacecolor="none", label="exact")
+        ax.set_ylabel(label)
+    force = limits(data, CONDUCTIVITY)
+    points(axes[0, 0], data.restitutions, force, color=COLOURS[0], label="force, ε* → 0")
+    axes[0, 0].legend(fontsize=8, **BARS)
+    for ax in axes[1]:
+        ax.set_xlabel("coefficient of restitution α")
+    return found
+
+
+STYLES = (
+    *(("black", "-"), (COLOURS[1], "--"), (COLOURS[2], "--")),
+    *((COLOURS[3], "--"), (COLOURS[0], "-")),
+)
+
+
+@PAPER.figure("work_precision")
+def work_precision(data: Heat) -> Figure:
+    """Bias and statistical error in quadrature against particle-steps, at α = 0.5."""
+    found, axes = figure(1, 1, 7.4, 5)
+    ax, effort = axes[0, 0], np.geomspace(1e8, 1e13, 400)
+    for method, (colour, line) in zip(methods(data), STYLES, strict=True):
+        error = 100 * method.error(effort)
+        ax.loglog(effort, error, color=colour, linestyle=line, lw=1.5, label=method.label)
+    work, error = kicks(data)
+    label = "kicks, ε = 0.2 (κ, μ, η too)"
+    ax.loglog(work, 100 * error, "^", color=COLOURS[1], mfc="none", label=label)
+    ax.axhline(0.3, color="0.6", linewidth=0.8)
+    ax.set(xlabel="particle-steps, the approach included", ylabel="error of κ' (%)")
+    ax.set_ylim(0.05, 10)
+    ax.set_title("α = 0.5: bias and one standard error, in quadrature", fontsize=10)
+    ax.grid(alpha=0.3, which="both")
+    ax.legend(fontsize=8)
     return found

@@ -1,0 +1,155 @@
+"""Figures 1 to 7 of the paper."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from jdsmc.theory import sonine_elastic
+from jdsmc.theory.transport import elastic_sonine_coefficient, first_sonine, modified_first_sonine
+from jdsmc.units import CONVERGED_ORDER
+
+from ...numbers import mean
+from ...style import COLOURS, band, figure, legend_of, points
+from ..cases import PAPER_FIELD
+from ..coefficients import coefficient, elastic
+from ..data import PAPER, Heat
+from ..distribution import HEAT_FLUX_LIMIT, odd_part, phi, share, truncated
+from ..limits import CONDUCTIVITY, MARGINAL, SONINE, at_field, limits
+
+FINE = np.linspace(0.29, 1.0, 100)
+STEADY = {"color": "black", "linestyle": ":", "linewidth": 1.0}
+BANDS = {"title": "bands: 1 s.e.", "title_fontsize": 8}
+BARS = {"title": "error bars: 1 s.e.", "title_fontsize": 8}
+
+LARGEST = 10.0
+"""c_x² up to which φ is drawn; thermal velocities, as the paper says."""
+
+SERIES = ((":", COLOURS[1]), ("-.", COLOURS[2]), ("--", COLOURS[3]))
+
+
+@PAPER.figure("fig1_transient_conductivity")
+def transient_conductivity(data: Heat) -> Figure:
+    """Fig. 1: κ'(t)/κ0 at α = 0.3 for two fields; dotted: the steady value at the weaker one."""
+    found, axes = figure(1, 1, 6.4, 4.2)
+    ax = axes[0, 0]
+    for strength, line, colour in ((0.05, "--", COLOURS[1]), (PAPER_FIELD, "-", COLOURS[0])):
+        time, parts = data.transient(0.3, strength).each_series(0.3, CONDUCTIVITY.name)
+        band(ax, time, mean(parts), colour, line, f"ε* = {strength:g}")
+    steady = at_field(data, CONDUCTIVITY, 0.3, PAPER_FIELD)
+    ax.axhline(steady.value, label=f"steady, ε* = {PAPER_FIELD:g}", **STEADY)
+    ax.legend(fontsize=8, **BANDS)
+    ax.set(xlabel="t/τ", ylabel="κ'(t)/κ0", title="α = 0.3", ylim=(0, None))
+    return found
+
+
+@PAPER.figure("fig2_transient_sonine")
+def transient_sonine(data: Heat) -> Figure:
+    """Fig. 2: b'_k(t) from (3.10) solid and from (3.12) dashed, at ε* = 0.025; dotted: steady."""
+    found, axes = figure(2, 1, 6.4, 7.5, sharex=True)
+    for ax, alpha in zip(axes[:, 0], (1.0, 0.3), strict=True):
+        pool = data.transient(alpha, PAPER_FIELD)
+        for colour, *both in zip(COLOURS, SONINE, MARGINAL, strict=False):
+            for quantity, line in zip(both, ("-", "--"), strict=True):
+                time, parts = pool.each_series(alpha, quantity.name, quantity.order)
+                band(ax, time, mean(parts), colour, line)
+            ax.axhline(at_field(data, both[0], alpha, PAPER_FIELD).value, **STEADY)
+        ax.set(ylabel="b'_k(t)", title=f"α = {alpha:g}, ε* = {PAPER_FIELD:g}")
+    entries = {q.label: {"color": c} for q, c in zip(SONINE, COLOURS, strict=False)}
+    entries |= {"(3.10)": {"color": "0.3"}, "(3.12)": {"color": "0.3", "linestyle": "--"}}
+    axes[1, 0].set_xlabel("t/τ")
+    handles = legend_of(entries | {"steady": STEADY})
+    axes[0, 0].legend(handles=handles, fontsize=8, ncols=2, **BANDS)
+    return found
+
+
+@PAPER.figure("fig3_conductivity")
+def conductivity(data: Heat) -> Figure:
+    """Fig. 3: κ'/κ0 by the force and by kicks, both Sonine approximations, the elastic value."""
+    found, axes = figure(1, 1, 6.4, 4.8)
+    ax, alpha = axes[0, 0], np.array(data.restitutions)
+    paper = data.over_restitutions(lambda a: at_field(data, CONDUCTIVITY, a, PAPER_FIELD))
+    ax.plot(alpha, paper.value, "x", color="0.5", label=f"force, ε* = {PAPER_FIELD:g}")
+    points(ax, alpha, limits(data, CONDUCTIVITY), color=COLOURS[0], label="force, ε* → 0")
+    kicks = data.over_restitutions(lambda a: coefficient(data, CONDUCTIVITY.name, a).limit)
+    points(ax, alpha, kicks, fmt="^", color=COLOURS[1], label="kicks, ε → 0")
+    ax.plot(FINE, first_sonine(FINE).modified_conductivity, "k-", lw=1, label="first Sonine")
+    modified = modified_first_sonine(FINE).modified_conductivity
+    ax.plot(FINE, modified, "k--", lw=1, label="modified first Sonine")
+    exact = elastic("conductivity")
+    ax.annotate(f"{exact:.6f}", (1.0, exact), (0.8, 0.975), arrowprops={"arrowstyle": "->"})
+    ax.set(xlabel="coefficient of restitution α", ylabel="κ'/κ0", ylim=(0.95, 1.65))
+    ax.legend(fontsize=8, **BARS)
+    return found
+
+
+@PAPER.figure("fig4_sonine")
+def sonine(data: Heat) -> Figure:
+    """Fig. 4: b'_k for ε* → 0 and at the paper's field; stars: exact elastic values."""
+    found, axes = figure(1, 1, 6.4, 4.8)
+    ax, alpha = axes[0, 0], np.array(data.restitutions)
+    exact = sonine_elastic.sonine_coefficients(CONVERGED_ORDER)
+    for q, marker, colour, star in zip(SONINE, "os^", COLOURS, exact, strict=False):
+        paper = data.over_restitutions(lambda a, q=q: at_field(data, q, a, PAPER_FIELD))
+        look = {"fmt": marker, "color": colour}
+        label = f"{q.label}, ε* = {PAPER_FIELD:g}"
+        points(ax, alpha, paper, linestyle=":", lw=1, label=label, **look)
+        label = f"{q.label}, ε* → 0"
+        points(ax, alpha, limits(data, q), markerfacecolor=colour, label=label, **look)
+        ax.plot(1.0, star, "k*", markersize=11, markerfacecolor="none")
+    first = elastic_sonine_coefficient() * first_sonine(FINE).modified_conductivity
+    ax.plot(FINE, first, "k-", lw=1, label="b'_1, first Sonine")
+    ax.plot([], [], "k*", markersize=11, markerfacecolor="none", label="elastic, exact")
+    ax.axhline(0, color="0.8", lw=0.8, zorder=0)
+    ax.set(xlabel="coefficient of restitution α", ylabel="b'_k")
+    ax.legend(fontsize=7, ncols=2, **BARS)
+    return found
+
+
+@PAPER.figure("fig5_distribution_weak")
+def weak(data: Heat) -> Figure:
+    """Fig. 5: φ(c_x²) and the truncated series φ_1, φ_2, φ_3 for α = 1 and 0.9."""
+    return _distributions(data, (1.0, 0.9))
+
+
+@PAPER.figure("fig6_distribution_strong")
+def strong(data: Heat) -> Figure:
+    """Fig. 6: the same for α = 0.7, 0.5, 0.3."""
+    return _distributions(data, (0.7, 0.5, 0.3))
+
+
+def _distributions(data: Heat, restitutions) -> Figure:
+    found, axes = figure(len(restitutions), 1, 6.4, 3.4 * len(restitutions), sharex=True)
+    squared = np.linspace(0, LARGEST, 200)
+    for ax, alpha in zip(axes[:, 0], restitutions, strict=True):
+        odd = odd_part(data, alpha, PAPER_FIELD)
+        shown = odd.centres**2 < LARGEST
+        curve = phi(odd)[shown]
+        band(ax, odd.centres[shown] ** 2, curve, COLOURS[0], label="φ (band: 1 s.e.)")
+        b = [at_field(data, q, alpha, PAPER_FIELD).value for q in SONINE]
+        for p, (line, colour) in enumerate(SERIES, start=1):
+            series = truncated(b[:p], squared)
+            ax.plot(squared, series, linestyle=line, color=colour, lw=1.3, label=f"φ_{p}")
+        ax.axhline(0, color="0.8", lw=0.8, zorder=0)
+        low = min(np.min(curve.value - curve.error), np.min(truncated(b[:1], squared)))
+        ax.set(ylabel="φ(c_x²)", ylim=(1.15 * low, 6.0))
+        ax.set_title(f"α = {alpha:g}, ε* = {PAPER_FIELD:g}", fontsize=10)
+    axes[0, 0].legend(fontsize=8)
+    axes[-1, 0].set_xlabel("c_x²")
+    return found
+
+
+@PAPER.figure("fig7_share")
+def shares(data: Heat) -> Figure:
+    """Fig. 7: β1(c_x²)/b'_1 for five restitutions; dotted line: c_x² = 6."""
+    found, axes = figure(1, 1, 6.4, 4.6)
+    ax = axes[0, 0]
+    for alpha, colour in zip((1.0, 0.9, 0.7, 0.5, 0.3), COLOURS, strict=True):
+        odd = odd_part(data, alpha, PAPER_FIELD)
+        squared = odd.edges[1:] ** 2
+        shown = squared < 20
+        band(ax, squared[shown], share(odd)[shown], colour, label=f"α = {alpha:g}")
+    ax.axvline(HEAT_FLUX_LIMIT, color="black", linestyle=":", linewidth=1)
+    ax.axhline(1.0, color="0.8", lw=0.8, zorder=0)
+    ax.set(xlabel="c_x²", ylabel="β1(c_x²)/b'_1", xlim=(0, 20))
+    ax.set_title(f"ε* = {PAPER_FIELD:g}; bands: 1 s.e.", fontsize=10)
+    ax.legend(fontsize=8)
+    return found
