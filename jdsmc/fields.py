@@ -52,6 +52,28 @@ def count(meaning: str, *, least: int = 1, default: Any = REQUIRED) -> Any:
     return eqx.field(default=default, static=True, metadata={"meaning": meaning, "least": least})
 
 
+def derived() -> Any:
+    """What the constructor works out from the other fields, fixed while a program is compiled."""
+    return eqx.field(static=True, metadata={"derived": True})
+
+
+def given(module) -> list[dataclasses.Field]:
+    """The fields that make a gas or scene: all but those that are derived from others."""
+    return [f for f in dataclasses.fields(module) if not f.metadata.get("derived", False)]
+
+
+def text(module) -> str:
+    """A gas or scene with its numbers, as it would be typed."""
+    parts = [f"{f.name}={_shown(getattr(module, f.name))}" for f in given(module)]
+    return f"{type(module).__name__}({', '.join(parts)})"
+
+
+def _shown(value) -> str:
+    if isinstance(value, np.ndarray | np.generic):
+        return np.array2string(np.asarray(value), separator=", ", threshold=20)
+    return repr(value)
+
+
 def check_fields(module: eqx.Module) -> None:
     """Raise ValueError or TypeError unless every described field holds what it allows."""
     for field in dataclasses.fields(module):
@@ -64,8 +86,3 @@ def check_fields(module: eqx.Module) -> None:
             check.one_of(field.name, value, (*facts["names"], "a number"))
         elif "range" in facts:
             check.in_range(field.name, value, axes=facts["axes"], **facts["range"])
-
-
-def described(module: eqx.Module) -> dict[str, dict[str, Any]]:
-    """Meaning, unit, ... of every field by name; what a field does not say is left out."""
-    return {field.name: dict(field.metadata) for field in dataclasses.fields(module)}

@@ -10,7 +10,7 @@ import equinox as eqx
 import numpy as np
 
 from .. import sweep
-from ..fields import check_fields
+from ..fields import check_fields, text
 from ..units import INITIAL_TEMPERATURE
 from . import local
 
@@ -41,6 +41,9 @@ class AbstractGas(eqx.Module):
 
     def __check_init__(self):
         check_fields(self)
+
+    def __repr__(self) -> str:
+        return text(self)
 
     @abstractmethod
     def rate(self, speed) -> Any:

@@ -11,7 +11,6 @@ from ..stats import jackknife
 from .estimates import reported, steady_estimates
 from .history import History
 from .provenance import provenance, run_name
-from .steady import SteadyTracker
 
 STEADY_FROM = (
     Observable("steady_from_time", "time from which the gas was measured", "τ0"),
@@ -71,9 +70,7 @@ def common_axes(each: list[dict]) -> dict:
     return shared
 
 
-def assemble(
-    scene: AbstractScene, history: History, tracker: SteadyTracker | None, session, attrs: dict
-) -> Result:
+def assemble(scene: AbstractScene, history: History, tracker, session, attrs: dict) -> Result:
     """Everything measured, labelled by the swept dimensions.
 
     Arguments: the scene as the user made it; the history; the tracker, or None where steady
@@ -111,7 +108,7 @@ def assemble(
     return Result(xr.DataTree.from_dict(groups))
 
 
-def _measured(tracker: SteadyTracker, history: History, records: int) -> bool:
+def _measured(tracker, history: History, records: int) -> bool:
     """True if every point has been measured for at least one whole chunk."""
     ready = tracker.all_measuring and np.all(tracker.start <= history.length - records)
     return bool(ready)

@@ -5,7 +5,7 @@ import numpy as np
 from .. import check
 from ..errors import NotSteadyError
 from ..scenarios.base import AbstractScene
-from .steady import SteadyTracker
+from .steady import tracker_for
 
 
 class Limits:
@@ -39,6 +39,7 @@ class Limits:
         self.budget = float(budget)
         self.observables = _names(scene, observable)
         self.fixed = duration is not None or collisions is not None
+        self.monitored = scene.monitored
         self.approaches = [scene.approach() for scene in scenes]
         without = [scene for scene in scenes if not scene.has_steady_state()]
         self.can_be_steady = not without
@@ -57,7 +58,7 @@ class Limits:
         """Raise NotSteadyError if the warm-up alone takes more than the budget."""
         if self.fixed:
             return
-        least = float(np.max(SteadyTracker(self.approaches, ()).least))
+        least = float(np.max(tracker_for(self.approaches, self.monitored).least))
         if least >= self.budget:
             raise NotSteadyError(
                 f"budget = {self.budget:g} collisions per particle is too small: the warm-up takes "

@@ -14,6 +14,7 @@ import jax
 import numpy as np
 
 from .. import sweep
+from ..fields import given
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
 
@@ -54,7 +55,7 @@ def provenance(scene: AbstractScene, options: Options) -> dict:
 def specification(module: Any) -> Any:
     """A scene or gas as plain data: class and fields, enough to build it again."""
     if dataclasses.is_dataclass(module) and not isinstance(module, type):
-        fields = [f for f in dataclasses.fields(module) if f.init]
+        fields = given(module)
         return {
             "class": f"{type(module).__module__}:{type(module).__qualname__}",
             "fields": {f.name: specification(getattr(module, f.name)) for f in fields},

@@ -1,6 +1,5 @@
 """A run under way, of any scene: engine, history, steady-state tracker, precision."""
 
-
 import numpy as np
 
 from ..scenarios.options import Options
@@ -10,7 +9,7 @@ from .estimates import steady_changes, steady_estimates
 from .history import History
 from .host_engine import HostEngine
 from .limits import Limits
-from .steady import SteadyTracker
+from .steady import tracker_for
 
 BLOCKS = 4
 """Blocks of a measurement for the second estimate of its precision."""
@@ -27,7 +26,7 @@ class Session:
         self.options, self.limits = options, limits
         self.engine = kind(scenes, n_realizations, seed, options)
         self.history = History(scenes, options.n_particles, options.steps)
-        self.tracker = SteadyTracker(limits.approaches, scenes[0].monitored, steady_changes)
+        self.tracker = tracker_for(limits.approaches, scenes[0].monitored, steady_changes)
         self.precision = np.inf
         self.failed = self._settled = False
         self._asked_at = -1

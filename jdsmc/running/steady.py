@@ -193,3 +193,28 @@ def left_over(began: float, end: float, slow_time: float) -> float:
     before, after = 0.5 * began / slow_time, max(end - began, 1e-9) / slow_time
     ratio = (before / after) * np.exp(-before) * np.expm1(-after) / np.expm1(-before)
     return float(ratio / max(1.0 - ratio, 1e-3))
+
+
+class NothingToSettle:
+    """The tracker of a scene that starts steady (it monitors nothing): measured from the start."""
+
+    def __init__(self, points: int):
+        self.start = np.zeros(points, int)
+        self.least = np.zeros(points)
+        self.all_measuring = True
+
+    def update(self, history: History) -> None:
+        """Nothing to be found."""
+
+    def settled(self, history: History) -> bool:
+        """Always."""
+        return True
+
+
+def tracker_for(
+    approaches: Sequence[Approach], monitored: tuple[str, ...], drift: Drift | None = None
+) -> "SteadyTracker | NothingToSettle":
+    """The tracker of a scene."""
+    if not monitored:
+        return NothingToSettle(len(approaches))
+    return SteadyTracker(approaches, monitored, drift)

@@ -8,7 +8,7 @@ import equinox as eqx
 import numpy as np
 
 from ..collisions.meet import Collisions
-from ..fields import check_fields
+from ..fields import check_fields, text
 from ..gases.base import AbstractGas
 from ..measure.observable import Observable
 from ..types import Key, Scalar
@@ -86,6 +86,9 @@ class AbstractScene(eqx.Module):
         if not self.reports or not all(isinstance(one, Observable) for one in self.reports):
             raise TypeError(f"{name}.reports must hold at least one jdsmc.Observable.")
         check_fields(self)
+
+    def __repr__(self) -> str:
+        return text(self)
 
     # On the device: pure, traced, one gas.
 

@@ -12,11 +12,10 @@ start: no thermostat stands between collisions, and none can bias their rate.
 
 from typing import Any, ClassVar, Literal
 
-import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 
-from ..fields import choice, number
+from ..fields import choice, derived, number
 from ..gases import AbstractGas
 from ..measure.heat import (
     RESPONSES,
@@ -35,6 +34,7 @@ from ..units import INITIAL_TEMPERATURE
 from .approach import Approach, of_heat_flux_force
 from .homogeneous import (
     DISTRIBUTIONS,
+    AbstractHomogeneous,
     HomogeneousRecord,
     HomogeneousState,
     homogeneous_averages,
@@ -54,7 +54,7 @@ class HeatRecord(HomogeneousRecord):
     step: Scalar
 
 
-class HeatFluxForce(eqx.Module):
+class HeatFluxForce(AbstractHomogeneous):
     """A cooling gas under the heat-flux force along x, started from a Maxwellian at T0.
 
     Arguments:
@@ -80,10 +80,11 @@ class HeatFluxForce(eqx.Module):
         ("exact", "paper"),
         default="exact",
     )
-    exponent: float | None = eqx.field(init=False, static=True)
+    exponent: float | None = derived()
 
-    def __post_init__(self):
-        self.exponent = scaling_exponent(self.gas)
+    def __init__(self, gas, field, scheme="exact"):
+        self.gas, self.field, self.scheme = gas, field, scheme
+        self.exponent = scaling_exponent(gas)
 
     def __check_init__(self):
         check_without_drag(self.gas, "HeatFluxForce")

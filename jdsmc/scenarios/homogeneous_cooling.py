@@ -12,6 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from ..collisions.meet import Collisions
+from ..fields import derived
 from ..gases import AbstractGas
 from ..measure.moments import Distributions, moments
 from ..measure.observable import Observable
@@ -60,10 +61,10 @@ class HomogeneousCooling(AbstractHomogeneous):
     monitored: ClassVar[tuple[str, ...]] = ("fourth", "sixth", "cubed")
 
     gas: AbstractGas
-    exponent: float | None = eqx.field(init=False, static=True)
+    exponent: float | None = derived()
 
-    def __post_init__(self):
-        self.exponent = scaling_exponent(self.gas)
+    def __init__(self, gas):
+        self.gas, self.exponent = gas, scaling_exponent(gas)
 
     def __check_init__(self):
         check_without_drag(self.gas, "HomogeneousCooling")

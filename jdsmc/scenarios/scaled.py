@@ -43,7 +43,9 @@ def plain_time(elapsed: np.ndarray, log_scale: np.ndarray, exponent: float) -> n
 
 def scaling_exponent(gas: AbstractGas) -> float | None:
     """γ if the gas (which may be swept) knows no speed of its own, else None."""
-    return None if isinstance(gas, ElasticHardSpheres) else speed_exponent(gas)
+    if not isinstance(gas, AbstractGas) or isinstance(gas, ElasticHardSpheres):
+        return None
+    return speed_exponent(gas)
 
 
 def check_without_drag(gas: AbstractGas, scene: str) -> None:

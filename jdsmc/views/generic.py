@@ -1,7 +1,6 @@
 """Table and picture of any scene, from what its observables say of themselves."""
 
 
-
 def table(result) -> str:
     """Steady values with errors and units."""
     if not result.is_steady:
