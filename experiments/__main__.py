@@ -1,10 +1,9 @@
-"""`python -m experiments [PAPER] [--full] [--fresh] [--out FOLDER]`: reproduce a published study."""
+"""`python -m experiments [PAPER] [--full] [--fresh] [--out FOLDER]`: reproduce a study."""
 
+import argparse
+import sys
 from importlib import import_module
 from pathlib import Path
-from typing import Annotated
-
-import tyro
 
 from .paper import Paper
 
@@ -22,38 +21,19 @@ def load(name: str) -> Paper:
     return import_module(f"experiments.{name}").PAPER
 
 
-def cli(name: str = "") -> None:
-    """The command of all papers, or of one."""
+def cli(paper: str = "", arguments: list[str] | None = None) -> None:
+    """The command of one paper, or of all."""
+    parser = argparse.ArgumentParser(f"python -m experiments{'.' if paper else ''}{paper}")
+    if not paper:
+        parser.add_argument("paper", choices=PAPERS, help="the study to reproduce")
+    parser.add_argument("--full", action="store_true", help="all states, more statistics")
+    parser.add_argument("--fresh", action="store_true", help="run every simulation again")
+    where = "for simulations (reused), figures and tables; default: output/<paper>/small or full"
+    parser.add_argument("--out", type=Path, metavar="FOLDER", help=where)
+    given = sys.argv[1:] if arguments is None else arguments
+    asked = parser.parse_args(given if given or paper else ["--help"])
+    load(paper or asked.paper).main("full" if asked.full else "small", asked.out, asked.fresh)
 
-    def one(full: bool = False, fresh: bool = False, out: Path | None = None) -> None:
-        """Reproduce a published study: its figures, and every number and statement of its text.
-
-        Args:
-            full: all states and several times the statistics.
-            fresh: run every simulation again.
-            out: folder for simulations (*.h5, reused if they are what is asked for), figures and
-                tables; by default output/<paper>/small or full.
-        """
-        load(name).main("full" if full else "small", out, fresh)
-
-    def any_of_them(
-        paper: Annotated[str, tyro.conf.Positional] = "",
-        full: bool = False,
-        fresh: bool = False,
-        out: Path | None = None,
-    ) -> None:
-        nonlocal name
-        if paper not in PAPERS:
-            print(f"python -m experiments PAPER [--full] [--fresh] [--out FOLDER]{WHICH}")
-            raise SystemExit(2 if paper else 0)
-        name = paper
-        one(full, fresh, out)
-
-    any_of_them.__doc__ = one.__doc__
-    tyro.cli(one if name else any_of_them)
-
-
-WHICH = "\nPAPER is one of:\n" + "\n".join(f"  {name}" for name in PAPERS)
 
 if __name__ == "__main__":
     cli()

@@ -84,17 +84,11 @@ class Measurements:
         self.size, self.folder, self.fresh = size, folder, fresh
         self.cases = {case.name: case for case in cases}
         self.results = {name: self.obtain(case) for name, case in self.cases.items()}
-        self._verdicts: dict[Claim, Verdict] = {}
+        self.verdicts: dict[Claim, Verdict] = {}
 
     def obtain(self, case: Case) -> Result:
         """The result of a case, from the store or simulated."""
         return store.obtain(case, self.folder, self.fresh)
-
-    def verdict(self, claim: Claim) -> Verdict:
-        """What a claim comes to; measured once."""
-        if claim not in self._verdicts:
-            self._verdicts[claim] = claim.judge(self)
-        return self._verdicts[claim]
 
 
 @cache

@@ -1,7 +1,7 @@
 """Claims of a paper: a number or a sentence, where it stands, and what we measure of it."""
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,6 +17,20 @@ AGREEMENT = 2.0
 HOLDS = {True: "holds", False: "**does not hold**", None: "not resolved"}
 
 
+class Claim(NamedTuple):
+    """What a paper says: the quoted sentence, or what the number is; its section or figure.
+
+    `expected`, `half_width`: the number, and half a unit of its last digit (for a range half its
+    length plus that). `key`: the name of the function that measures it.
+    """
+
+    key: str
+    text: str
+    place: str
+    expected: float | None = None
+    half_width: float = 0.0
+
+
 class Finding(NamedTuple):
     """What was measured, in words and numbers, and whether it bears a sentence out.
 
@@ -27,40 +41,10 @@ class Finding(NamedTuple):
     holds: bool | None
 
 
-@dataclass(frozen=True)
-class Claim:
-    """What a paper says, and how it is measured.
-
-    Arguments:
-        text, place: the sentence, or what the number is; the section or figure.
-        measure: a function of the measurements. For a number: our value. For a sentence: a
-            `Finding`.
-        expected, half_width: the number, and half a unit of its last digit (for a range half its
-            length plus that).
-        repeat: for a number: what to measure again with other numerics if it differs.
-    """
-
-    text: str
-    place: str
-    measure: Callable[[Any], Any]
-    expected: float | None = None
-    half_width: float = 0.0
-    repeat: Callable[[Any], Estimate] | None = None
-
-    def judge(self, data) -> "Verdict":
-        """Measure it."""
-        measured = self.measure(data)
-        if isinstance(measured, Finding):
-            holds = None if measured.holds is None else bool(measured.holds)
-            return Verdict(self, measured.measured, holds, None)
-        return _compared(self, measured)
-
-
 class Verdict(NamedTuple):
-    """A claim beside our measurement.
+    """A claim beside our measurement: Estimate, Span, number or text.
 
-    `measured`: Estimate, Span, number or text; `distance`: of a number, beyond its rounding, in our
-    standard errors.
+    `distance`: of a number, beyond its rounding, in our standard errors.
     """
 
     claim: Claim
@@ -77,28 +61,31 @@ class Verdict(NamedTuple):
         return "agrees" if self.holds else f"**differs{far}**"
 
 
-def _compared(claim: Claim, ours) -> Verdict:
-    """A number beside the quoted one."""
+def read(path: Path) -> dict[str, list[Claim]]:
+    """Claims of a text file by its headings: `key | text | place [| value | half width]` a line."""
+    found: dict[str, list[Claim]] = {}
+    for line in path.read_text().splitlines():
+        if line.startswith("# "):
+            found[line[2:]] = claims = []
+        else:
+            key, text, place, *number = line.split(" | ")
+            claims.append(Claim(key, text, place, *map(float, number)))
+    return found
+
+
+def judge(claim: Claim, measured) -> Verdict:
+    """A claim beside what was measured of it."""
+    if isinstance(measured, Finding):
+        holds = None if measured.holds is None else bool(measured.holds)
+        return Verdict(claim, measured.measured, holds, None)
     wanted, half = float(claim.expected or 0.0), claim.half_width
-    if isinstance(ours, Span):
-        return Verdict(claim, ours, ours.low <= wanted + half and ours.high >= wanted - half, None)
-    value, error = ours if isinstance(ours, Estimate) else (ours, 0.0)
+    if isinstance(measured, Span):
+        holds = measured.low <= wanted + half and measured.high >= wanted - half
+        return Verdict(claim, measured, holds, None)
+    value, error = measured if isinstance(measured, Estimate) else (measured, 0.0)
     beyond = float(abs(value - wanted) - half)
     distance = beyond / float(error) if error > 0 else None
-    return Verdict(claim, ours, bool(beyond <= AGREEMENT * error), distance)
-
-
-def statement(claims: list[Claim], text: str, place: str):
-    """Decorator: a function of the measurements that returns a `Finding` is the test of a sentence.
-
-    It is added to the list, and stays a function.
-    """
-
-    def register(check: Callable[[Any], Finding]):
-        claims.append(Claim(text, place, check))
-        return check
-
-    return register
+    return Verdict(claim, measured, bool(beyond <= AGREEMENT * error), distance)
 
 
 def table(verdicts: Iterable[Verdict]) -> list[str]:

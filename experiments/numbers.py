@@ -1,4 +1,4 @@
-"""Estimates of several simulations together: means, arrays, fits; numbers that hang on a criterion."""
+"""Estimates of several simulations together: means, arrays, fits; values that hang on a rule."""
 
 from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple

@@ -1,60 +1,62 @@
 """A published study: its cases are run, its claims judged, its figures drawn, its tables written.
 
-The modules of a paper hand in what is theirs by decorators: `claim`, `section`, `figure`.
+The folder of a paper holds what it says (`claims.txt`) and the page that is made (`template.md`),
+in which `{Heading}` stands for the claims under a heading and `{name}` for a table. The modules of
+a paper hand in what is theirs by decorators: `claim`, `table`, `figure`.
 """
 
 import platform
+import re
 import shutil
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
 
-from . import markdown, style
+from . import claims, markdown, style
 from .case import Measurements
-from .claims import Claim, table
+
+HERE = Path(__file__).parent
 
 
 class Paper:
     """What a study consists of.
 
-    Arguments:
-        name: its module in this package; the part before a dot is its folder.
-        title, reference: for the head of its table.
-        sizes: how much to compute, by name; "small", "full", and "tiny" for tests.
-        measure: makes the `Measurements` of a size from a folder.
-        table: name of the file of tables.
+    Arguments: its module in this package, the part before a dot being its folder; how much to
+    compute, by name ("small", "full", and "tiny" for tests); what makes the `Measurements` of a
+    size from a folder; the name of the template and of the page made of it.
     """
 
     def __init__(
         self,
         name: str,
-        title: str,
-        reference: str,
         sizes: dict[str, Any],
-        measure: Callable[[Any, Path, bool], Measurements],
-        table: str = "table",
+        measure: Callable[[Any, Path, bool], Any],
+        page: str = "table",
     ):
-        self.name, self.title, self.reference = name, title, reference
-        self.sizes, self.measure, self.table = sizes, measure, table
-        self.claims: list[Claim] = []
-        self.sections: dict[str, tuple[str, Callable[[Any], Sequence[str]]]] = {}
+        self.name, self.sizes, self.measure, self.page = name, sizes, measure, page
+        self.folder = HERE / name.split(".", maxsplit=1)[0]
+        self.template = (self.folder / f"{page}.template.md").read_text()
+        text = self.folder / "claims.txt"
+        self.claims = claims.read(text) if text.exists() else {}
+        self.measures: dict[str, Callable[[Any], Any]] = {}
+        self.tables: dict[str, Callable[[Any], Sequence[str]]] = {}
         self.figures: dict[str, Callable[[Any], Any]] = {}
 
-    def judge(self, title: str, claims: Iterable[Claim], note: str = "") -> None:
-        """A section of claims beside what was measured; `claims` may still grow."""
-        self.sections[title] = note, lambda data: table(data.verdict(c) for c in claims)
+    def claim(self, function: Callable[[Any], Any]):
+        """Decorator: a function of the measurements decides the claim that has its name.
 
-    def section(self, title: str, note: str = ""):
-        """Decorator: a function of the measurements makes the lines of a section."""
+        It returns a `Finding` for a sentence, and for a number an `Estimate`, a `Span` or a number.
+        """
+        self.measures[function.__name__] = function
+        return function
 
-        def register(lines: Callable[[Any], Sequence[str]]):
-            self.sections[title] = note, lines
-            return lines
-
-        return register
+    def table(self, function: Callable[[Any], Sequence[str]]):
+        """Decorator: a function of the measurements makes the lines of the table of its name."""
+        self.tables[function.__name__] = function
+        return function
 
     def figure(self, name: str):
         """Decorator: a function of the measurements draws NAME.png."""
@@ -65,44 +67,78 @@ class Paper:
 
         return register
 
+    def verdicts(self, data: Measurements, heading: str) -> list[claims.Verdict]:
+        """What the claims under a heading come to; measured once."""
+        known = data.verdicts
+        for claim in self.claims[heading]:
+            if claim not in known:
+                known[claim] = claims.judge(claim, self.measures[claim.key](data))
+        return [known[claim] for claim in self.claims[heading]]
+
     def reproduce(self, size: str, folder: Path, fresh: bool = False) -> list[Path]:
-        """Simulate, draw and compare. Returns the files: the tables, then the figures."""
+        """Simulate, draw and compare. Returns the files: the page of tables, then the figures."""
         mpl.use("Agg")
         data = self.measure(self.sizes[size], folder, fresh)
         figures = [style.save(draw(data), folder / f"{n}.png") for n, draw in self.figures.items()]
-        tables = folder / f"{self.table}.md"
-        tables.write_text(self.document(data, size))
-        return [tables, *figures]
+        page = folder / f"{self.page}.md"
+        page.write_text(self.filled(data, size))
+        return [page, *figures]
 
-    def document(self, data: Measurements, size: str) -> str:
-        """All tables as one page of Markdown."""
-        sections = {f"{self.title} ({size} run)": self._provenance(data)}
-        for title, (note, lines) in self.sections.items():
-            sections[title] = [*([note, ""] if note else []), *lines(data)]
-        return markdown.document(sections)
+    def filled(self, data: Measurements, size: str) -> str:
+        """The template with its tables."""
 
-    def _provenance(self, data: Measurements) -> list[str]:
-        """The reference, the versions, the time it took."""
+        def lines(found: re.Match) -> str:
+            name = found[1]
+            if name in self.claims:
+                return "\n".join(claims.table(self.verdicts(data, name)))
+            return "\n".join(self.tables[name](data))
+
+        text = self.template.replace("{size}", size).replace("{provenance}", self.made_by(data))
+        return re.sub(r"^\{(.+)\}$", lines, text, flags=re.MULTILINE)
+
+    def made_by(self, data: Measurements) -> str:
+        """The command, the versions, the time it took."""
         attrs = [result.attrs for result in data.results.values()]
         commits = ", ".join(sorted({str(one["commit"]) for one in attrs}))
         minutes = sum(float(one["seconds"]) for one in attrs) / 60
-        return [
-            f"{self.reference}. Made by `python -m experiments.{self.name}`; do not edit.",
-            "",
-            f"jdsmc {attrs[0]['jdsmc_version']} at {commits} (+: with changes), jax "
+        return (
+            f"Made by `python -m experiments.{self.name}`; do not edit. jdsmc "
+            f"{attrs[0]['jdsmc_version']} at {commits} (+: with changes), jax "
             f"{attrs[0]['jax_version']} on {attrs[0]['backend']}, Python "
-            f"{platform.python_version()}. The simulations took {minutes:.0f} minutes.",
-        ]
+            f"{platform.python_version()}. The simulations took {minutes:.0f} minutes."
+        )
 
     def main(self, size: str, out: Path | None, fresh: bool) -> None:
         """Reproduce, and keep tables and figures beside the code that made them."""
         start = time.perf_counter()
-        home = self.name.split(".")[0]
-        folder = out or Path("output") / home / size
+        folder = out or Path("output") / self.folder.name / size
         folder.mkdir(parents=True, exist_ok=True)
         files = self.reproduce(size, folder, fresh)
-        results = Path(__file__).parent / home / "results" / ("" if size == "small" else size)
+        results = self.folder / "results" / ("" if size == "small" else size)
         results.mkdir(parents=True, exist_ok=True)
         for path in files:
             shutil.copy(path, results / path.name)
         print(f"{files[0]} and {len(files) - 1} figures in {time.perf_counter() - start:.0f} s")
+
+
+def simulations(data: Measurements) -> list[str]:
+    """What was run: sizes, times, seconds."""
+    rows = []
+    for name, result in data.results.items():
+        attrs, root, time = result.attrs, result.steady, result.series["time"].values
+        size = f"{attrs['n_particles']} x {attrs['n_realizations']}"
+        cells = ["", "", ""]
+        if result.is_steady:
+            start = root["steady_from_time"].values
+            spent = result.series["collisions"].values[..., -1] - root["steady_from_collisions"]
+            cells = [_range(start, ".0f"), _range(spent.values, ".0f")]
+            cells += [_range(root["time_step"].values, ".3f") if "time_step" in root else ""]
+        seconds = f"{float(attrs['seconds']):.0f}"
+        rows.append([name, size, f"{time.max():.4g}", *cells, seconds, attrs["stopped"]])
+    header = ["simulation", "N x realizations", "τ0", "averaged from (τ0)", "collisions averaged"]
+    return markdown.grid([*header, "dt made (τ)", "s", "ended"], rows)
+
+
+def _range(values, digits: str) -> str:
+    low, high = (format(float(one), digits) for one in (values.min(), values.max()))
+    return low if low == high else f"{low} to {high}"

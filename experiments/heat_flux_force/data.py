@@ -107,10 +107,4 @@ class Heat(Measurements):
         return stack(value(alpha) for alpha in self.restitutions)
 
 
-PAPER = Paper(
-    "heat_flux_force",
-    "Heat-flux force: paper and jdsmc",
-    "Montanero, Santos and Garzó, Physica A 376, 75 (2007)",
-    SIZES,
-    Heat,
-)
+PAPER = Paper("heat_flux_force", SIZES, Heat)

@@ -12,7 +12,7 @@ from ..numbers import within
 from . import coefficients, numerics
 from .cases import DEFAULT_STEP, PAPER_FIELD, STUDY_FIELD, STUDY_RESTITUTION
 from .data import PAPER, Heat, Pool
-from .distribution import SHARE_FIELD, share_limit
+from .distribution import share_limit
 from .limits import CONDUCTIVITY, MARGINAL, SONINE, at_field, limit, used
 
 
@@ -21,12 +21,7 @@ def percent(estimate: Estimate) -> str:
     return f"{100 * estimate}%"
 
 
-@PAPER.section(
-    "Steady values against the field",
-    "Odd averages over ε* are even in ε*: fitted with 1, ε*² and ε*⁴; values in brackets are not "
-    "used (high moments feel the algebraic tail that the force feeds). The last column is how far "
-    "the fit at the paper's field is from its limit, relative to the limit.",
-)
+@PAPER.table
 def steady(data: Heat) -> list[str]:
     """κ' and b'_k at every field and their limits, with the distance of the paper's field."""
     rows = []
@@ -43,12 +38,7 @@ def steady(data: Heat) -> list[str]:
     return grid([*header, f"{PAPER_FIELD:g} off by"], rows)
 
 
-@PAPER.section(
-    "Elastic limit",
-    "At α = 1 all b'_k are known from the Sonine expansion (`jdsmc.theory.sonine_elastic`, order "
-    "10). The limits of weak fields must agree with it; what is measured at the paper's field need "
-    "not.",
-)
+@PAPER.table
 def elastic(data: Heat) -> list[str]:
     """b'_k at α = 1 beside the converged Sonine expansion: a test of the extrapolation."""
     exact, rows = sonine_elastic.sonine_coefficients(CONVERGED_ORDER), []
@@ -65,7 +55,7 @@ def elastic(data: Heat) -> list[str]:
     return grid(header, rows)
 
 
-@PAPER.section("κ' and the Sonine approximations")
+@PAPER.table
 def theory(data: Heat) -> list[str]:
     """κ'/κ0 for ε* → 0 beside both Sonine approximations; shares of the heat flux."""
     rows = []
@@ -77,10 +67,7 @@ def theory(data: Heat) -> list[str]:
     return grid(["α", "κ'/κ0, ε* → 0", "first Sonine (off by)", "modified (off by)"], rows)
 
 
-@PAPER.section(
-    "Share of c_x² <= 6 in the heat flux",
-    f"From β1, eq. (4.6); fields up to {SHARE_FIELD:g} fitted with 1 and ε*².",
-)
+@PAPER.table
 def shares(data: Heat) -> list[str]:
     """The share of c_x² <= 6 in the heat flux."""
     rows = []
@@ -91,12 +78,7 @@ def shares(data: Heat) -> list[str]:
     return grid(["α", f"fit at ε* = {PAPER_FIELD:g}", "ε* → 0", "χ²/ν"], rows)
 
 
-@PAPER.section(
-    "Navier-Stokes coefficients",
-    "By impulse response (`jdsmc.transport.navier_stokes`, docs/impulse_response.md), units of the "
-    "elastic first Sonine values. Kicks are extrapolated with ε². Tail: the part of the value that "
-    "is extrapolated in time, at the smallest kick.",
-)
+@PAPER.table
 def navier_stokes(data: Heat) -> list[str]:
     """All coefficients from kicks with their checks, beside theory."""
     strengths, rows = coefficients.kick_strengths(data), []
@@ -117,7 +99,7 @@ def _signed(estimate: Estimate) -> str:
     return str(estimate) if estimate.value < 0 else f"+{estimate}"
 
 
-@PAPER.section("Two routes to κ'")
+@PAPER.table
 def routes(data: Heat) -> list[str]:
     """κ' by kicks and by the force."""
     rows = []
@@ -127,11 +109,7 @@ def routes(data: Heat) -> list[str]:
     return grid(["α", "κ'/κ0 by kicks, ε → 0", "by the force, ε* → 0", "difference/σ"], rows)
 
 
-@PAPER.section(
-    "Cooling state",
-    "`HomogeneousCooling`. ζ over ζ_M, that of a Maxwellian at the same temperature, from random "
-    "pairs and from the energy lost; (2.14) is 1 + 3 a2/16 with a2 of (2.16).",
-)
+@PAPER.table
 def cooling(data: Heat) -> list[str]:
     """a2, a3 and ζ of the cooling state beside (2.16) and (2.14)."""
     rows = []
@@ -147,7 +125,7 @@ def cooling(data: Heat) -> list[str]:
     return grid([*header, "largest error"], rows)
 
 
-@PAPER.section("Time step")
+@PAPER.table
 def time_steps(data: Heat) -> list[str]:
     """κ' against the time step in both schemes, and whether the default is short enough."""
     schemes = {name: numerics.scheme(data, name) for name in ("exact", "paper")}
@@ -171,11 +149,7 @@ def time_steps(data: Heat) -> list[str]:
     return lines + grid(header, rows)
 
 
-@PAPER.section(
-    "Particle number",
-    "The same gas with fewer particles in more realizations, against the run at the default step "
-    "above, and what it implies for the number of particles of all other runs.",
-)
+@PAPER.table
 def particle_numbers(data: Heat) -> list[str]:
     """κ' with few particles."""
     usual = f"N = {data.size.gas['n_particles']}"
@@ -183,12 +157,7 @@ def particle_numbers(data: Heat) -> list[str]:
     return grid(["N", "κ'/κ0", f"{usual} off by, if as 1/N"], rows)
 
 
-@PAPER.section(
-    "Work and precision",
-    "κ' at α = 0.5 (`numerics.py`). Bias of the field and of the time step, from the fits above; "
-    "particle-steps, the approach to the steady state included, until bias and statistical error, "
-    "in quadrature, are below 1%, 0.5%, 0.3%.",
-)
+@PAPER.table
 def precision(data: Heat) -> list[str]:
     """Work that each method of the picture needs, and its bias."""
     rows, effort = [], np.geomspace(1e7, 1e14, 2000)
@@ -203,23 +172,7 @@ def precision(data: Heat) -> list[str]:
     return grid(header, rows)
 
 
-MISPRINTS = (
-    ("(2.44)", "the factor λ c is missing on the right-hand side; compare (A.1)"),
-    ("below (2.40)", "the first of the two κ' should be κ: without density gradient (2.23) holds"),
-    ("end of section 3.2", "what (3.1) determines is 𝒜', not 𝒜"),
-    ("(4.6)", "the upper limit is |c_x|, not c_x²: the variable of integration is u_x"),
-    ("caption of Fig. 7", "the ratio is β1/b'_1, not β1/b_1"),
-)
-"""Where the paper cannot be meant as printed, and what was taken instead."""
-
-PAPER.section("Misprints in the paper")(lambda _: grid(["place", "what was taken"], MISPRINTS))
-
-
-@PAPER.section(
-    "Simulations",
-    "Parts are equal simulations with different seeds. χ²/ν, the scatter of the parts over their "
-    "own error bars, is 1 on average if these are honest (main observable, mean over α).",
-)
+@PAPER.table
 def simulations(data: Heat) -> list[str]:
     """What was run: sizes, times, seconds, and whether equal parts scatter as their errors say."""
     rows = []

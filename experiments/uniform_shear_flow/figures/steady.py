@@ -1,96 +1,161 @@
-"""Figures 14 to 16: steady states."""
+"""Figures 14 to 18: steady states and velocity distributions; the convergence study."""
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from jdsmc import Estimate
+from jdsmc.scenarios.options import TIME_STEP
 from jdsmc.theory import bgk_shear_flow
 
-from ...style import COLOURS, figure, legend_of
-from ..data import Measurements, Term
-from ..systems import FAST, SLOW
-from .style import BGK
+from ...case import estimate
+from ...numbers import stack
+from ...style import COLOURS, OPEN, band, figure, legend_of
+from ..cases import FAST, LABELS, POINTS, SLOW
+from ..checks import OBSERVABLES, Runs
+from ..claims_distribution import bgk, equilibrium
+from ..data import PAPER, Shear
+from .common import BGK, LINES, SHADES, STRESSES, legend
 
-POINTS = {
+LOOKS = {
     ("ihs", FAST): {"marker": "o", "color": COLOURS[0], "label": "IHS, a τ0 = 4"},
     ("ihs", SLOW): {"marker": "^", "color": COLOURS[0], "label": "IHS, a τ0 = 0.1"},
     ("ehs", FAST): {"marker": "s", "color": COLOURS[1], "label": "EHS, a τ0 = 4"},
     ("ehs", SLOW): {"marker": "v", "color": COLOURS[1], "label": "EHS, a τ0 = 0.1"},
+    ("ehs_measured", FAST): {
+        "marker": "D",
+        "color": COLOURS[2],
+        "markerfacecolor": COLOURS[2],
+        "label": "EHS, measured drag, a τ0 = 4",
+    },
 }
-
-OPEN = {"markerfacecolor": "none", "linestyle": "none", "markersize": 6, "capsize": 2}
-FILLED = {"marker": "D", "color": COLOURS[2], "linestyle": "none", "markersize": 6, "capsize": 2}
-MEASURED_LABEL = "EHS, measured drag, a τ0 = 4"
+FINE = np.linspace(0.48, 0.97, 99)
 
 
-def stresses(data: Measurements) -> Figure:
+def _panels(data: Shear, labels: dict[str, str], height: float, modelled, x_name: str = ""):
+    """Steady values against α, or against another of them; BGK dotted where it is modelled."""
+    found, axes = figure(len(labels), 1, 6.4, height, sharex=True)
+    axes, model = axes[:, 0], bgk_shear_flow.steady_state(FINE)
+    for ax, (name, label) in zip(axes, labels.items(), strict=True):
+        sign = -1.0 if label == "-a3" else 1.0
+        for (gas, rate), look in LOOKS.items():
+            alpha = data.restitutions(gas)
+            x = data.against(gas, x_name, rate) if x_name else Estimate(alpha, 0.0 * alpha)
+            y = sign * data.against(gas, name, rate)
+            ax.errorbar(x.value, *y, x.error if x_name else None, **OPEN | look)
+        if name in modelled:
+            x_model = getattr(model, x_name) if x_name else FINE
+            ax.plot(x_model, sign * getattr(model, name), **BGK, label="BGK")
+        ax.set_ylabel(label)
+    axes[-1].set_xlabel("coefficient of restitution α")
+    axes[0].legend(fontsize=8, title="error bars: 1 s.e.")
+    return found, axes
+
+
+@PAPER.figure("fig14_steady_stresses")
+def stresses(data: Shear) -> Figure:
     """Fig. 14: shear rate, shear stress, normal stress differences against α, BGK dotted."""
-    labels = {
-        "reduced_shear_rate": "a* = a τ_η",
-        "shear_stress": "-P_xy/nT",
-        "normal_stress_xy": "(P_xx - P_yy)/nT",
-        "normal_stress_zy": "(P_zz - P_yy)/nT",
-    }
-    found, axes = figure(4, 1, 6.4, 11.5, sharex=True)
-    _against_restitution(data, axes[:, 0], labels, set(labels))
+    labels = {"reduced_shear_rate": "a* = a τ_η", **STRESSES}
+    labels["normal_stress_zy"] = "(P_zz - P_yy)/nT"
+    return _panels(data, labels, 11.5, labels)[0]
+
+
+@PAPER.figure("fig15_viscometric")
+def viscometric(data: Shear) -> Figure:
+    """Fig. 15: viscosity and viscometric functions against the steady shear rate, BGK dotted."""
+    labels = {"reduced_viscosity": "η*", "first_viscometric": "-Ψ1", "second_viscometric": "Ψ2"}
+    found, axes = _panels(data, labels, 9, labels, "reduced_shear_rate")
+    axes[-1].set_xlabel("steady reduced shear rate a*_s = a τ_η")
     return found
 
 
-def cumulants(data: Measurements) -> Figure:
+@PAPER.figure("fig16_steady_cumulants")
+def cumulants(data: Shear) -> Figure:
     """Fig. 16: relative speeds and cumulants against α; BGK dotted but in the first panel."""
     labels = {"relative_speed_cubed": "⟨V12³⟩/⟨V12³⟩0", "a2": "a2", "a3": "-a3"}
-    found, axes = figure(3, 1, 6.4, 9, sharex=True)
-    _against_restitution(data, axes[:, 0], labels, {"a2", "a3"})
+    found, axes = _panels(data, labels, 9, ("a2", "a3"))
+    axes[1].legend(handles=legend_of({"BGK": BGK}), fontsize=8)
     return found
 
 
-def _against_restitution(data: Measurements, axes, labels: dict[str, str], with_model: set) -> None:
-    grid = np.linspace(0.48, 0.97, 99)
-    model = bgk_shear_flow.steady_state(grid)
-    for ax, (name, label) in zip(axes, labels.items(), strict=True):
-        sign = -1.0 if label.startswith("-a") else 1.0
-        for (gas, rate), look in POINTS.items():
-            value, error = data.steady_values(gas, rate, name)
-            ax.errorbar(data.restitutions(gas), sign * value, error, **OPEN | look)
-        value, error = data.lookup(Term("ehs_measured", 0.5, FAST, name))
-        ax.errorbar(0.5, sign * value, error, **FILLED)
-        if name in with_model:
-            ax.plot(grid, sign * getattr(model, name), **BGK)
-        ax.set_ylabel(label)
-    axes[0].set_xlim(0.47, 0.98)
-    axes[-1].set_xlabel("coefficient of restitution α")
-    _legend(axes[0])
+DISTRIBUTIONS = {
+    "marginal_x": ("velocity", "C_x = V_x/v0(T)", "g_x⁽⁺⁾(C_x)"),
+    "marginal_y": ("velocity", "C_y = V_y/v0(T)", "g_y⁽⁺⁾(C_y)"),
+    "speed": ("speed_bin", "C = V/v0(T)", "F(C)"),
+}
+
+LARGEST_ERROR = 0.7
+"""Bins with a larger relative error are not drawn."""
 
 
-def viscometric(data: Measurements) -> Figure:
-    """Fig. 15: viscosity and viscometric functions against the steady shear rate, BGK dotted."""
-    labels = {
-        "reduced_viscosity": "η*",
-        "first_viscometric": "-Ψ1",
-        "second_viscometric": "Ψ2",
-    }
-    found, axes = figure(3, 1, 6.4, 9, sharex=True)
-    model = bgk_shear_flow.steady_state(np.linspace(0.48, 0.97, 99))
-    for ax, (name, label) in zip(axes[:, 0], labels.items(), strict=True):
-        for (gas, rate), look in POINTS.items():
-            x, y = (data.steady_values(gas, rate, n) for n in ("reduced_shear_rate", name))
-            _point(ax, x, y, OPEN | look)
-        terms = [Term("ehs_measured", 0.5, FAST, n) for n in ("reduced_shear_rate", name)]
-        _point(ax, *(data.lookup(term) for term in terms), FILLED)
-        ax.plot(model.reduced_shear_rate, getattr(model, name), **BGK)
-        ax.set_ylabel(label)
-    axes[-1, 0].set_xlabel("steady reduced shear rate a*_s = a τ_η")
-    _legend(axes[0, 0])
+@PAPER.figure("fig17_distributions")
+def linear(data: Shear) -> Figure:
+    """Fig. 17: thermal velocities, linear scale."""
+    return _distributions(data, 3.0, ylim=(0, None))
+
+
+@PAPER.figure("fig18_distributions_log")
+def logarithmic(data: Shear) -> Figure:
+    """Fig. 18: tails, logarithmic scale, averaged over both shear rates."""
+    return _distributions(data, 7.0, yscale="log", ylim=(1e-7, 2))
+
+
+def _distributions(data: Shear, reach: float, **options) -> Figure:
+    found, axes = figure(3, 2, 10, 10.5)
+    for column, alpha in enumerate((0.9, 0.5)):
+        for row, (name, (axis, xlabel, ylabel)) in enumerate(DISTRIBUTIONS.items()):
+            ax, first = axes[row, column], 0.0 if name == "speed" else -reach
+            for gas, colour in SHADES.items():
+                curve = data.distribution(gas, alpha)
+                c, (value, error) = curve[axis].values, estimate(curve, name)
+                seen = (c > first) & (c < reach) & (error < LARGEST_ERROR * value)
+                value = np.where(seen, value, np.nan)  # a gap, where few particles were seen
+                band(ax, c, Estimate(value, error), colour, LINES[gas])
+            c = np.linspace(first + 1e-3, reach, 241)
+            ax.plot(c, bgk(name, alpha, c), color="black", linestyle="-.", linewidth=1)
+            ax.plot(c, equilibrium(name, c), color="0.5", linestyle=":", linewidth=1.3)
+            ax.set(xlabel=xlabel, ylabel=ylabel, xlim=(first, reach), title=f"α = {alpha}")
+            ax.set(**options)
+    models = {"BGK": {"color": "black", "linestyle": "-."}}
+    models["local equilibrium"] = {"color": "0.5", "linestyle": ":"}
+    legend(axes[2, 0], models, coloured=True)
     return found
 
 
-def _point(ax, x: Estimate, y: Estimate, look: dict) -> None:
-    ax.errorbar(x.value, y.value, y.error, x.error, **look)
+@PAPER.figure("convergence")
+def convergence(data: Shear) -> Figure:
+    """Deviation from the limit in percent, against dt² (left) and 1/N (right); fits as lines."""
+    found, axes = figure(len(OBSERVABLES), 2, 10, 2.4 * len(OBSERVABLES), sharex="col")
+    for place, (gas, alpha) in enumerate(POINTS):
+        runs = Runs(data, gas, alpha)
+        look = {"fmt": "o", "ms": 4, "capsize": 2, "color": COLOURS[place]}
+        look["label"] = f"{LABELS[gas]}, α = {alpha}"
+        for (left, right), name in zip(axes, OBSERVABLES, strict=True):
+            _deviations(left, right, runs, name, place, look)
+    for (left, right), label in zip(axes, OBSERVABLES.values(), strict=True):
+        left.set_ylabel(f"{label}: deviation / %")
+        for ax in (left, right):
+            ax.axhspan(-0.3, 0.3, color="0.9", zorder=0, label="±0.3%")
+    axes[-1, 0].set_xlabel("(dt/τ)², dt as really made")
+    axes[-1, 1].set(xlabel="1/N", xscale="log")
+    axes[0, 0].set_title(f"N = {runs.usual}")
+    axes[0, 1].set_title(f"time step asked: {TIME_STEP} (default)")
+    axes[0, 0].legend(fontsize=7, ncols=2, title="error bars: 1 s.e.; lines: fit", title_fontsize=7)
+    return found
 
 
-def _legend(ax) -> None:
-    keep = ("marker", "color", "markerfacecolor", "linestyle", "markersize")
-    entries = {look["label"]: OPEN | look for look in POINTS.values()}
-    entries[MEASURED_LABEL] = FILLED
-    short = {name: {k: v for k, v in e.items() if k in keep} for name, e in entries.items()}
-    ax.legend(handles=legend_of(short | {"BGK": BGK}), fontsize=8, title="error bars: 1 s.e.")
+def _deviations(left, right, runs: Runs, name: str, place: int, look: dict) -> None:
+    limit = runs.limit(name)
+    best, *parts = (float(x) for x in (limit.terms[0], limit.by_step, limit.by_number))
+    by_step, by_number = (100 * part for part in parts)
+    value, error = (100 / best * x for x in stack(runs.values(name)))
+    x, chosen = runs.step**2, runs.number == runs.usual
+    left.errorbar(x[chosen] + 2e-5 * place, value[chosen] - 100, error[chosen], **look)
+    line = np.linspace(0, x[chosen].max(), 20)
+    fit = by_number + by_step * line / runs.default**2
+    left.plot(line, fit, color=look["color"], linewidth=1)
+    x, chosen = 1.0 / runs.number, runs.asked == TIME_STEP
+    shifted = x[chosen] * (1 + 0.06 * (place - 1))
+    right.errorbar(shifted, value[chosen] - 100, error[chosen], **look)
+    line = np.geomspace(x[chosen].min(), x[chosen].max(), 60)
+    fit = by_step + by_number * line * runs.usual
+    right.plot(line, fit, color=look["color"], linewidth=1)

@@ -11,9 +11,9 @@ import numpy as np
 from jax import lax
 
 from jdsmc import random
-from jdsmc.options import Options
+from jdsmc.scenarios.options import Options
 
-from .systems import FAST, Case
+from .cases import FAST, scene
 
 EDGES = np.linspace(-3.0, 3.0, 61)
 RECORDS, STEPS = 16, 8
@@ -29,16 +29,15 @@ def check(n_gases: int, n_samples: int, restitution: float = 0.5, seed: int = 7)
     Every gas of 4096 particles gives one value in each bin, the mean of `n_samples` samples; the
     variance among gases gives the error, so that correlations in time do not matter.
     """
-    scene = Case("symmetry", "ihs", (restitution,), (FAST,)).scene()
-    scene = jax.tree.map(lambda number: jnp.float32(np.squeeze(number)), scene)
-    options = Options.checked(4096, 0.1, "strang", "float32", STEPS, RECORDS)
+    gas = jax.tree.map(jnp.float32, scene("ihs", restitution, FAST))
+    options = Options.checked(4096, 0.1, "strang", "float32", STEPS)
     keys = jax.vmap(lambda k: random.fold_in(random.key_from_seed(seed), k))(
         jnp.arange(n_gases, dtype=jnp.uint32)
     )
-    states = _start(scene, keys, options)
+    states = _start(gas, keys, options)
     counts = []
     for block in range(n_samples + WARM_BLOCKS):
-        states, halves = _block(scene, keys, states, jnp.uint32(block * RECORDS), options)
+        states, halves = _block(gas, keys, states, jnp.uint32(block * RECORDS), options)
         if block >= WARM_BLOCKS:
             counts.append({name: np.asarray(value, float) for name, value in halves.items()})
     means = {name: np.mean([c[name] for c in counts], axis=0) for name in counts[0]}
@@ -47,19 +46,19 @@ def check(n_gases: int, n_samples: int, restitution: float = 0.5, seed: int = 7)
 
 
 @eqx.filter_jit
-def _start(scene, keys, options):
-    return jax.vmap(lambda key: scene.initial(key, options))(keys)
+def _start(gas, keys, options):
+    return jax.vmap(lambda key: gas.initial(key, options))(keys)
 
 
 @eqx.filter_jit
-def _block(scene, keys, states, first, options):
+def _block(gas, keys, states, first, options):
     def one_gas(key, state):
         def record(state, count):
-            state, _ = scene.advance(random.fold_in(key, 1 + first + count), state, options)
+            state, _ = gas.advance(random.fold_in(key, 1 + first + count), state, options)
             return state, None
 
         state, _ = lax.scan(record, state, jnp.arange(RECORDS, dtype=jnp.uint32))
-        state, _ = scene.finish_chunk(state)
+        state, _ = gas.finish_chunk(state)
         return state, _halves(state.velocity)
 
     return jax.vmap(one_gas)(keys, states)
