@@ -1,19 +1,24 @@
 """A published study: its cases are run, its claims judged, its figures drawn, its tables written.
 
-The folder of a paper holds what it says (`claims.txt`) and the page that is made (`template.md`),
-in which `{Heading}` stands for the claims under a heading and `{name}` for a table. The modules of
-a paper hand in what is theirs by decorators: `claim`, `table`, `figure`.
+The folder of a paper holds what it says (`claims.txt`), how much to compute ("small", "full", and
+"tiny" for tests: `sizes.toml`) and the page that is made (`table.template.md`), in which
+`{Heading}` stands for the claims under a heading and `{name}` for a table. What decides the claim `key`, and
+what makes the table `name`, are functions of these names in the modules of a paper (`Paper.take`);
+figures are registered by a decorator.
 """
 
 import platform
 import re
 import shutil
 import time
+import tomllib
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import matplotlib as mpl
+from matplotlib.figure import Figure
 
 from . import claims, markdown, style
 from .case import Measurements
@@ -24,45 +29,44 @@ HERE = Path(__file__).parent
 class Paper:
     """What a study consists of.
 
-    Arguments: its module in this package, the part before a dot being its folder; how much to
-    compute, by name ("small", "full", and "tiny" for tests); what makes the `Measurements` of a
-    size from a folder; the name of the template and of the page made of it.
+    Arguments: its module in this package, the part before a dot being its folder; what makes the
+    `Measurements` of a size from a folder; the name of the template and of the page made of it.
     """
 
-    def __init__(
-        self,
-        name: str,
-        sizes: dict[str, Any],
-        measure: Callable[[Any, Path, bool], Any],
-        page: str = "table",
-    ):
-        self.name, self.sizes, self.measure, self.page = name, sizes, measure, page
+    def __init__(self, name: str, measure: Callable[[Any, Path, bool], Any], page: str = "table"):
+        self.name, self.measure, self.page = name, measure, page
         self.folder = HERE / name.split(".", maxsplit=1)[0]
+        sizes = tomllib.loads((self.folder / "sizes.toml").read_text())
+        self.sizes = {size: SimpleNamespace(**amounts) for size, amounts in sizes.items()}
         self.template = (self.folder / f"{page}.template.md").read_text()
         text = self.folder / "claims.txt"
         self.claims = claims.read(text) if text.exists() else {}
         self.measures: dict[str, Callable[[Any], Any]] = {}
-        self.tables: dict[str, Callable[[Any], Sequence[str]]] = {}
-        self.figures: dict[str, Callable[[Any], Any]] = {}
+        self.tables: dict[str, Callable[[Any], Sequence[str]]] = {"simulations": simulations}
+        self.figures: dict[str, Callable[[Any], Figure]] = {}
 
-    def claim(self, function: Callable[[Any], Any]):
-        """Decorator: a function of the measurements decides the claim that has its name.
+    def take(self, claims: Sequence[ModuleType], tables: Sequence[ModuleType]) -> "Paper":
+        """Functions of the measurements in these modules decide the claims of their names.
 
-        It returns a `Finding` for a sentence, and for a number an `Estimate`, a `Span` or a number.
+        Such a function returns a `Finding` for a sentence, and for a number an `Estimate`, a `Span`
+        or a number. Those of `tables` make the lines of the tables of their names.
         """
-        self.measures[function.__name__] = function
-        return function
+        for module in claims:
+            self.measures = _own(module) | self.measures
+        for module in tables:
+            self.tables = _own(module) | self.tables
+        return self
 
-    def table(self, function: Callable[[Any], Sequence[str]]):
-        """Decorator: a function of the measurements makes the lines of the table of its name."""
-        self.tables[function.__name__] = function
-        return function
+    def figure(self, name: str, rows: int, columns: int, width: float, height: float, **options):
+        """Decorator: a function of the measurements and of axes (rows, columns) draws NAME.png."""
 
-    def figure(self, name: str):
-        """Decorator: a function of the measurements draws NAME.png."""
+        def register(draw: Callable[[Any, Any], None]):
+            def drawn(data) -> Figure:
+                found, axes = style.figure(rows, columns, width, height, **options)
+                draw(data, axes)
+                return found
 
-        def register(draw: Callable[[Any], Any]):
-            self.figures[name] = draw
+            self.figures[name] = drawn
             return draw
 
         return register
@@ -119,6 +123,12 @@ class Paper:
         for path in files:
             shutil.copy(path, results / path.name)
         print(f"{files[0]} and {len(files) - 1} figures in {time.perf_counter() - start:.0f} s")
+
+
+def _own(module: ModuleType) -> dict[str, Callable]:
+    """Functions that a module defines."""
+    own = {n: f for n, f in vars(module).items() if getattr(f, "__module__", "") == module.__name__}
+    return {name: function for name, function in own.items() if callable(function)}
 
 
 def simulations(data: Measurements) -> list[str]:

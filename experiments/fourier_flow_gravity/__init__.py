@@ -8,4 +8,5 @@ work.
 from . import claims, figures, tables
 from .data import PAPER
 
-__all__ = ["PAPER", "claims", "figures", "tables"]
+__all__ = ["PAPER", "figures"]
+PAPER.take([claims], [tables])

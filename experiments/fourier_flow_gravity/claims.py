@@ -26,7 +26,6 @@ from .cases import (
 from .data import PAPER, Fourier
 
 
-@PAPER.claim
 def crossing(data: Fourier) -> Span:
     """Where p and P_zz cross, over the gravities of Fig. 4: the middle one and the range."""
     each = [profiles.crossing(data.realizations(EXAMPLE, g)) for g in EXAMPLE_GRAVITY]
@@ -66,7 +65,6 @@ UNLIKELY = 0.01
 """Probability below which a profile is called non-uniform, shared among all that are tested."""
 
 
-@PAPER.claim
 def relaxed(data: Fourier) -> Finding:
     sweeps = [data.sweep(combination).steady for combination in COMBINATIONS]
     worst = max(float(root["steady_from_time"].max()) for root in sweeps)
@@ -76,7 +74,7 @@ def relaxed(data: Fourier) -> Finding:
 
 def _uniform(test, what: str, data: Fourier) -> Finding:
     """A balance law in layers that are thin enough, and in all."""
-    states = [data.realizations(c, float(g)) for c in COMBINATIONS for g in data.size.gravity[c]]
+    states = [data.realizations(c, float(g)) for c in COMBINATIONS for g in data.gravity[c]]
     everywhere = [test(state, thin=False) for state in states]
     tested = [test(state) for state in states]
     text = f"{what} in layers thinner than {balance.THIN:g} λ': {_described(tested)}"
@@ -94,24 +92,21 @@ def _described(tested: list[balance.Uniformity]) -> str:
 
 def _not_too_small(tested: list[balance.Uniformity], data: Fourier) -> bool | None:
     """No probability too small for so many tests; None if so few realizations cannot tell."""
-    finest = 2.0 ** (1 - data.size.options["n_realizations"])
+    finest = 2.0 ** (1 - data.size.gas["n_realizations"])
     limit = UNLIKELY / len(tested)
     if min(test.probability for test in tested) > max(limit, finest):
         return True
     return None if finest > limit else False
 
 
-@PAPER.claim
 def uniform_flux(data: Fourier) -> Finding:
     return _uniform(balance.energy, "q_z", data)
 
 
-@PAPER.claim
 def momentum_law(data: Fourier) -> Finding:
     return _uniform(balance.momentum, "P_zz + g ∫n dz", data)
 
 
-@PAPER.claim
 def stress_without_gravity(data: Fourier) -> Finding:
     realizations = data.realizations(EXAMPLE, 0.0)
     test = balance.momentum(realizations)
@@ -124,7 +119,6 @@ def stress_without_gravity(data: Fourier) -> Finding:
     )
 
 
-@PAPER.claim
 def stress_with_gravity(data: Fourier) -> Finding:
     texts, signs = [], []
     for gravity in EXAMPLE_GRAVITY:
@@ -137,7 +131,6 @@ def stress_with_gravity(data: Fourier) -> Finding:
     return Finding("P_zz, last fifth minus first: " + "; ".join(texts), every(signs))
 
 
-@PAPER.claim
 def pressure_against_stress(data: Fourier) -> Finding:
     texts, signs = [], []
     for gravity in EXAMPLE_GRAVITY:
@@ -163,21 +156,18 @@ def _ends(data: Fourier, gravity: float) -> tuple[Estimate, Estimate]:
     return profiles.layer(state, "temperature", True), profiles.layer(state, "temperature", False)
 
 
-@PAPER.claim
 def steeper(data: Fourier) -> Finding:
     rises = [hot - cold for cold, hot in (_ends(data, g) for g in EXAMPLE_GRAVITY)]
     text = ", ".join(f"{rise.value:.3f}" for rise in rises)
     return Finding(f"T(L) - T(0) for g = {LISTED}: {text}", _falling(rises))
 
 
-@PAPER.claim
 def stronger_flux(data: Fourier) -> Finding:
     fluxes = [-estimate(data.state(EXAMPLE, g), "mean_heat_flux") for g in EXAMPLE_GRAVITY]
     text = ", ".join(f"{flux.value:.4f}" for flux in fluxes)
     return Finding(f"|q_z| for g = {LISTED}: {text}", _falling(fluxes))
 
 
-@PAPER.claim
 def curved(data: Fourier) -> Finding:
     ratio = estimate(data.state(EXAMPLE, 0.0), "kappa_star")
     a, b = (ratio[int(share * len(ratio.value))] for share in (0.1, 0.7))
@@ -188,7 +178,6 @@ def curved(data: Fourier) -> Finding:
     )
 
 
-@PAPER.claim
 def jumps(data: Fourier) -> Finding:
     ends = [_ends(data, gravity) for gravity in EXAMPLE_GRAVITY]
     cold, hot = [low - EXAMPLE.cold for low, _ in ends], [1.0 - high for _, high in ends]
@@ -200,7 +189,6 @@ def jumps(data: Fourier) -> Finding:
     return Finding(f"first and last layer, g = {LISTED}: {text}", holds)
 
 
-@PAPER.claim
 def smaller_jumps(data: Fourier) -> Finding:
     texts, signs = [], []
     for gravity in FIGURE_6:
@@ -220,7 +208,6 @@ def _in_all(data: Fourier, name: str, head: str, expected) -> Finding:
     return Finding(f"{head}, {text}", every(positive(expected(one)) for one in found.values()))
 
 
-@PAPER.claim
 def below_one(data: Fourier) -> Finding:
     return _in_all(data, "kappa_star", "κ* at g = 0, from the fits", lambda found: 1.0 - found)
 
@@ -230,7 +217,6 @@ def _both_kinds(data: Fourier, cold: float) -> list[dict[str, Estimate]]:
     return [data.responses[c] for c in COMBINATIONS if c.cold == cold]
 
 
-@PAPER.claim
 def closer_to_one(data: Fourier) -> Finding:
     texts, signs = [], []
     for cold in (0.05, 0.01):
@@ -245,12 +231,11 @@ def _resolved(data: Fourier) -> list[tuple[float, dict[str, Estimate]]]:
     return [
         (gravity, {name: values[k] for name, values in effect.items()})
         for combination, effect in data.effects.items()
-        for k, gravity in enumerate(data.size.gravity[combination])
+        for k, gravity in enumerate(data.gravity[combination])
         if np.isfinite(effect["kappa_star"].error[k])
     ]
 
 
-@PAPER.claim
 def position(data: Fourier) -> Finding:
     states = _resolved(data)
     signs = [positive(5.0 - here["z0"]) for _, here in states]
@@ -261,7 +246,6 @@ def position(data: Fourier) -> Finding:
     return Finding(text, False if False in signs else (None if undecided > 3 else True))
 
 
-@PAPER.claim
 def sign_of_effect(data: Fourier) -> Finding:
     states = _resolved(data)
     signs = [positive(np.sign(g) * here["kappa_star_change"]) for g, here in states if g]
@@ -270,12 +254,10 @@ def sign_of_effect(data: Fourier) -> Finding:
     return Finding(text, False if wrong else (True if open_ < len(signs) / 3 else None))
 
 
-@PAPER.claim
 def asymmetry(data: Fourier) -> Finding:
     return _in_all(data, "C", "coefficient of g*² in the fits", lambda found: found)
 
 
-@PAPER.claim
 def walls_matter(data: Fourier) -> Finding:
     texts, signs = [], []
     for cold in (0.05, 0.01):
@@ -288,14 +270,12 @@ def walls_matter(data: Fourier) -> Finding:
     return Finding("∂Δκ*/∂g* at g* = 0, types I and II, " + "; ".join(texts), every(signs))
 
 
-@PAPER.claim
 def weaker_than_molecules(data: Fourier) -> Finding:
     return _in_all(data, "B", "B", lambda found: profiles.FIRST_ORDER - found)
 
 
-@PAPER.claim
 def beyond_table(data: Fourier) -> Finding:
-    free = data.size.gravity[BEYOND].index(0.0)
+    free = data.gravity[BEYOND].index(0.0)
     gradient = float(data.effects[BEYOND]["reduced_gradient"].value[free])
     found = estimate(data.state(BEYOND, FIGURE_6[1]), "reduced_gradient")
     inner = found.value[: -(len(found.value) // 5)]

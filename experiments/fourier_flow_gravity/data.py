@@ -11,27 +11,16 @@ from jdsmc.results.gravity_effect import linear_response, points
 
 from ..case import Measurements
 from ..paper import Paper
-from .cases import (
-    BEYOND,
-    BEYOND_NAME,
-    EXAMPLE,
-    SIZES,
-    Combination,
-    Size,
-    cases,
-    maxwell_name,
-    sweep_name,
-    variant_name,
-)
+from . import cases
+from .cases import BEYOND, EXAMPLE, Combination, maxwell_name, sweep_name, variant_name
 
 
 class Fourier(Measurements):
     """All results of a run of this experiment, by the name of their case."""
 
-    size: Size
-
-    def __init__(self, size: Size, folder: Path, fresh: bool = False):
-        super().__init__(size, cases(size), folder, fresh)
+    def __init__(self, size, folder: Path, fresh: bool = False):
+        super().__init__(size, cases.cases(size), folder, fresh)
+        self.gravity = cases.sweeps(size)
 
     def sweep(self, combination: Combination) -> Result:
         """The states of one of tables 2 to 5."""
@@ -47,18 +36,18 @@ class Fourier(Measurements):
         return _at(tree["realizations"].to_dataset().transpose(..., "realization", "z"), gravity)
 
     def _holding(self, combination: Combination, gravity: float) -> Result:
-        held = combination == BEYOND and gravity not in self.size.gravity[BEYOND]
-        return self.results[BEYOND_NAME] if held else self.sweep(combination)
+        held = combination == BEYOND and gravity not in self.gravity[BEYOND]
+        return self.results[cases.BEYOND_NAME] if held else self.sweep(combination)
 
     @cached_property
     def effects(self) -> dict[Combination, dict[str, Estimate]]:
         """z0, 𝒩(z0), g*, κ* and Δκ* of every sweep by the paper's rule, at the default window."""
-        return {c: points(self.sweep(c)) for c in self.size.gravity}
+        return {c: points(self.sweep(c)) for c in self.gravity}
 
     @cached_property
     def responses(self) -> dict[Combination, dict[str, Estimate]]:
         """B, C and κ*(g = 0) of every sweep."""
-        return {c: linear_response(self.sweep(c)) for c in self.size.gravity}
+        return {c: linear_response(self.sweep(c)) for c in self.gravity}
 
     @property
     def variants(self) -> dict[str, Result]:
@@ -69,7 +58,7 @@ class Fourier(Measurements):
     @property
     def molecules(self) -> dict[float, Result]:
         """Sweeps with Maxwell molecules by the length of the slab."""
-        return {length: self.results[maxwell_name(length)] for length in self.size.maxwell}
+        return {length: self.results[maxwell_name(length)] for length, *_ in self.size.maxwell}
 
 
 def _at(data: xr.Dataset, gravity: float) -> xr.Dataset:
@@ -82,4 +71,4 @@ def share(state: xr.Dataset) -> np.ndarray:
     return z / (z[-1] + z[0])
 
 
-PAPER = Paper("fourier_flow_gravity", SIZES, Fourier)
+PAPER = Paper("fourier_flow_gravity", Fourier)

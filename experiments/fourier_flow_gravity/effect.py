@@ -109,7 +109,7 @@ def scatter(combination: Combination, name: str) -> float:
 def rows(data: Fourier, combination: Combination) -> list[Row]:
     """The rows of a table of which we have the state."""
     effect, paper, found = data.effects[combination], table(combination), []
-    gravities = np.array(data.size.gravity[combination])
+    gravities = np.array(data.gravity[combination])
     for k, gravity in enumerate(paper["gravity"]):
         for at in np.flatnonzero(np.isclose(gravities, gravity)):
             cells = {n: _cell(combination, n, paper, k, effect[n][at]) for n in SYMBOLS}

@@ -8,13 +8,11 @@ from jdsmc import Estimate, Result
 from jdsmc.results.gravity_effect import linear_response
 
 from ..markdown import grid
-from ..paper import simulations
 from . import balance, effect, profiles
 from .cases import COMBINATIONS, PAPER_WORK, Combination
 from .data import PAPER, Fourier
 
 
-@PAPER.table
 def summary(data: Fourier) -> list[str]:
     """All rows of each column together, and how they are judged."""
     rough, scaled = paper_noise(data)
@@ -78,7 +76,6 @@ for _number, _combination in enumerate(COMBINATIONS, start=2):
     PAPER.tables[f"table_{_number}"] = partial(states, _combination)
 
 
-@PAPER.table
 def response(data: Fourier) -> list[str]:
     """B and C of Δκ* = B ε0 g* + C g*², ours and from the paper's tables."""
     rows = []
@@ -93,12 +90,11 @@ def response(data: Fourier) -> list[str]:
     return grid(header, rows)
 
 
-@PAPER.table
 def balances(data: Fourier) -> list[str]:
     """(12) and (13) for every state."""
     rows = []
     for combination in COMBINATIONS:
-        for gravity in data.size.gravity[combination]:
+        for gravity in data.gravity[combination]:
             state = data.realizations(combination, float(gravity))
             walls = balance.walls(state)
             tests = [test(state) for test in (balance.momentum, balance.energy)]
@@ -115,20 +111,18 @@ def _off(found: Estimate, truth: float) -> str:
     return f"{found} ({found.distance(truth):+.1f} σ)"
 
 
-@PAPER.table
 def windows(data: Fourier) -> list[str]:
     """κ* and Δκ* with other windows, of the same simulations; and B."""
     lines = _changes("window", profiles.windows(data), str)
     rows = [
         [c.label, *profiles.response_by_window(data.sweep(c)), effect.paper_response(c)["B"]]
-        for c in data.size.gravity
+        for c in data.gravity
     ]
     header = ["B", *(f"window {w:g} λ0" for w in profiles.WINDOWS), "the paper's table"]
     lines += ["", "B in all combinations, from the same simulations:", ""]
     return lines + grid(header, rows)
 
 
-@PAPER.table
 def variants(data: Fourier) -> list[str]:
     """κ*, Δκ* and q with other numerics, in other simulations."""
     return _changes("simulation", profiles.variants(data), None)
@@ -152,7 +146,6 @@ def _changes(kind: str, entries: list[profiles.Entry], show) -> list[str]:
     return grid([kind, *(x for name in entries[0].values for x in (name, "change"))], rows)
 
 
-@PAPER.table
 def maxwell(data: Fourier) -> list[str]:
     """Maxwell molecules beside eq. (6)."""
     rows = []
@@ -166,6 +159,3 @@ def maxwell(data: Fourier) -> list[str]:
             known = f"1, {profiles.FIRST_ORDER:g}, {second:.1f}"
             rows.append([f"{length:g}", f"{window * length:g}", gradient, *cells, known])
     return grid(["L", "window", "ε0", "κ*(g = 0)", "B", "C", "eq. (6)"], rows)
-
-
-PAPER.table(simulations)

@@ -7,4 +7,5 @@ Run it with `python -m experiments.heat_flux_force`; README.md tells how the fil
 from . import claims, figures, tables
 from .data import PAPER
 
-__all__ = ["PAPER", "claims", "figures", "tables"]
+__all__ = ["PAPER", "figures"]
+PAPER.take([claims], [tables])

@@ -38,7 +38,7 @@ class Coefficient(NamedTuple):
 
 def kick_strengths(data: Heat) -> list[float]:
     """Kicks that were run at the default time step; the first is the default kick."""
-    return sorted(kick for kick, step in data.size.kicks if step == KICK_STEP)
+    return sorted(kick for kick, step, _ in data.size.kicks if step == KICK_STEP)
 
 
 def coefficient(data: Heat, name: str, restitution: float) -> Coefficient:
@@ -47,7 +47,7 @@ def coefficient(data: Heat, name: str, restitution: float) -> Coefficient:
     pools = [data[kick_name(kick, KICK_STEP)] for kick in strengths]
     kicks = [pool.value(name, restitution) for pool in pools]
     fitted = Even(strengths, kicks, (1,))
-    by_step, short = None, min(step for _, step in data.size.kicks)
+    by_step, short = None, min(step for _, step, _ in data.size.kicks)
     if short < KICK_STEP:
         other = data[kick_name(strengths[0], short)]
         by_step = kicks[0] - other.value(name, restitution)

@@ -9,7 +9,7 @@ from jdsmc import Estimate, Result
 from ..case import Case, Measurements, at, estimate, steady
 from ..numbers import Even, mean, stack
 from ..paper import Paper
-from .cases import SIZES, Size, steady_name, studies, transient_name
+from .cases import steady_name, studies, transient_name
 
 
 class Pool:
@@ -73,9 +73,7 @@ class Pool:
 class Heat(Measurements):
     """All pools of a run of this experiment, by the name of their study."""
 
-    size: Size
-
-    def __init__(self, size: Size, folder: Path, fresh: bool = False):
+    def __init__(self, size, folder: Path, fresh: bool = False):
         found = studies(size)
         super().__init__(size, [case for cases in found.values() for case in cases], folder, fresh)
         self.pools = {n: Pool(c, [self.results[one.name] for one in c]) for n, c in found.items()}
@@ -92,7 +90,7 @@ class Heat(Measurements):
     @property
     def fields(self) -> tuple[float, ...]:
         """Those of the steady states, from the weakest on."""
-        return tuple(sorted(self.size.fields))
+        return tuple(sorted(strength for strength, _ in self.size.fields))
 
     def steady(self, strength: float) -> Pool:
         """The steady states at a field."""
@@ -107,4 +105,4 @@ class Heat(Measurements):
         return stack(value(alpha) for alpha in self.restitutions)
 
 
-PAPER = Paper("heat_flux_force", SIZES, Heat)
+PAPER = Paper("heat_flux_force", Heat)

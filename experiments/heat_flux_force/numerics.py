@@ -67,7 +67,7 @@ class Scheme(NamedTuple):
 
 def scheme(data: Heat, name: str) -> Scheme:
     """What was measured with a scheme."""
-    asked = tuple(sorted(step for kind, step in data.size.steps if kind == name))
+    asked = tuple(sorted(step for kind, step, _ in data.size.steps if kind == name))
     pools = [data[step_name(name, step)] for step in asked]
     made = [float(studied(pool, "time_step").value) for pool in pools]
     values = [studied(pool) for pool in pools]

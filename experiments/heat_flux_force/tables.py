@@ -11,7 +11,7 @@ from ..markdown import grid
 from ..numbers import within
 from . import coefficients, numerics
 from .cases import DEFAULT_STEP, PAPER_FIELD, STUDY_FIELD, STUDY_RESTITUTION
-from .data import PAPER, Heat, Pool
+from .data import Heat, Pool
 from .distribution import share_limit
 from .limits import CONDUCTIVITY, MARGINAL, SONINE, at_field, limit, used
 
@@ -21,7 +21,6 @@ def percent(estimate: Estimate) -> str:
     return f"{100 * estimate}%"
 
 
-@PAPER.table
 def steady(data: Heat) -> list[str]:
     """κ' and b'_k at every field and their limits, with the distance of the paper's field."""
     rows = []
@@ -38,7 +37,6 @@ def steady(data: Heat) -> list[str]:
     return grid([*header, f"{PAPER_FIELD:g} off by"], rows)
 
 
-@PAPER.table
 def elastic(data: Heat) -> list[str]:
     """b'_k at α = 1 beside the converged Sonine expansion: a test of the extrapolation."""
     exact, rows = sonine_elastic.sonine_coefficients(CONVERGED_ORDER), []
@@ -55,7 +53,6 @@ def elastic(data: Heat) -> list[str]:
     return grid(header, rows)
 
 
-@PAPER.table
 def theory(data: Heat) -> list[str]:
     """κ'/κ0 for ε* → 0 beside both Sonine approximations; shares of the heat flux."""
     rows = []
@@ -67,7 +64,6 @@ def theory(data: Heat) -> list[str]:
     return grid(["α", "κ'/κ0, ε* → 0", "first Sonine (off by)", "modified (off by)"], rows)
 
 
-@PAPER.table
 def shares(data: Heat) -> list[str]:
     """The share of c_x² <= 6 in the heat flux."""
     rows = []
@@ -78,7 +74,6 @@ def shares(data: Heat) -> list[str]:
     return grid(["α", f"fit at ε* = {PAPER_FIELD:g}", "ε* → 0", "χ²/ν"], rows)
 
 
-@PAPER.table
 def navier_stokes(data: Heat) -> list[str]:
     """All coefficients from kicks with their checks, beside theory."""
     strengths, rows = coefficients.kick_strengths(data), []
@@ -99,7 +94,6 @@ def _signed(estimate: Estimate) -> str:
     return str(estimate) if estimate.value < 0 else f"+{estimate}"
 
 
-@PAPER.table
 def routes(data: Heat) -> list[str]:
     """κ' by kicks and by the force."""
     rows = []
@@ -109,7 +103,6 @@ def routes(data: Heat) -> list[str]:
     return grid(["α", "κ'/κ0 by kicks, ε → 0", "by the force, ε* → 0", "difference/σ"], rows)
 
 
-@PAPER.table
 def cooling(data: Heat) -> list[str]:
     """a2, a3 and ζ of the cooling state beside (2.16) and (2.14)."""
     rows = []
@@ -125,7 +118,6 @@ def cooling(data: Heat) -> list[str]:
     return grid([*header, "largest error"], rows)
 
 
-@PAPER.table
 def time_steps(data: Heat) -> list[str]:
     """κ' against the time step in both schemes, and whether the default is short enough."""
     schemes = {name: numerics.scheme(data, name) for name in ("exact", "paper")}
@@ -149,7 +141,6 @@ def time_steps(data: Heat) -> list[str]:
     return lines + grid(header, rows)
 
 
-@PAPER.table
 def particle_numbers(data: Heat) -> list[str]:
     """κ' with few particles."""
     usual = f"N = {data.size.gas['n_particles']}"
@@ -157,7 +148,6 @@ def particle_numbers(data: Heat) -> list[str]:
     return grid(["N", "κ'/κ0", f"{usual} off by, if as 1/N"], rows)
 
 
-@PAPER.table
 def precision(data: Heat) -> list[str]:
     """Work that each method of the picture needs, and its bias."""
     rows, effort = [], np.geomspace(1e7, 1e14, 2000)
@@ -172,7 +162,6 @@ def precision(data: Heat) -> list[str]:
     return grid(header, rows)
 
 
-@PAPER.table
 def simulations(data: Heat) -> list[str]:
     """What was run: sizes, times, seconds, and whether equal parts scatter as their errors say."""
     rows = []

@@ -7,12 +7,5 @@ All of it: figures 1 to 18, homogeneous and inhomogeneous. Run it with
 from . import claims_distribution, claims_slab, claims_steady, claims_transient, figures, tables
 from .data import PAPER
 
-__all__ = [
-    "PAPER",
-    "claims_distribution",
-    "claims_slab",
-    "claims_steady",
-    "claims_transient",
-    "figures",
-    "tables",
-]
+__all__ = ["PAPER", "figures"]
+PAPER.take([claims_distribution, claims_slab, claims_steady, claims_transient], [tables])

@@ -1,33 +1,23 @@
-"""What stands behind the verdicts: symmetry, the sequential program, other numerics, the limits."""
+"""What stands behind the verdicts: the sequential program, other numerics, the limits."""
 
-import inspect
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
 from jdsmc import Estimate, Result
-from jdsmc.scenarios import UniformShear
 from jdsmc.scenarios.options import TIME_STEP
 
 from .. import store
 from ..case import steady
 from ..numbers import Fit, within
-from . import independent, symmetry_check
+from . import independent
 from .cases import FAST, POINTS
 from .data import Shear
 from .measured import STEADY
 
 TOLERANCE = 0.003
 """The accuracy that the defaults are to have."""
-
-
-def symmetry(data: Shear) -> dict:
-    """What `symmetry_check` finds, kept in the folder of the simulations."""
-    sources = [Path(inspect.getfile(one)) for one in (symmetry_check, UniformShear)]
-    asked = {**data.size.symmetry, "program": store.program(*sources)}
-    path, options = data.folder / "symmetry.json", data.size.symmetry
-    return store.kept(path, asked, lambda: symmetry_check.check(**options), data.fresh)
 
 
 def sequential(data: Shear) -> dict[str, dict[str, list[float]]]:

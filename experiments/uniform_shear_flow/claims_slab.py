@@ -7,7 +7,7 @@ from jdsmc import Estimate
 from ..case import estimate
 from ..claims import Finding, percent
 from .cases import BOTH, FAST, SLAB_RESTITUTION, STARTS
-from .data import CENTRE, HEIGHT, PAPER, TOP, Shear, profile
+from .data import CENTRE, HEIGHT, TOP, Shear, profile
 from .slab import TIMES, ratio_curve
 
 PROFILES = {"velocity_x": "u_x/aL", "density": "n/n̄", "temperature": "T/T̄"}
@@ -25,7 +25,6 @@ def flat(data: Shear, gas: str = "ihs"):
     return data.series(gas, SLAB_RESTITUTION, FAST)
 
 
-@PAPER.claim
 def collided(data: Shear) -> Finding:
     each = [data.slab("early", "ihs", start) for start in STARTS]
     shares = [2.0 * float(np.interp(0.13, one["time"], one["collisions"])) for one in each]
@@ -34,7 +33,6 @@ def collided(data: Shear) -> Finding:
     return Finding(text, 0.155 < min(shares) < 0.185)
 
 
-@PAPER.claim
 def fewer_collisions(data: Shear) -> Finding:
     _, (ratio, error) = ratio_curve(data)
     return Finding(
@@ -44,7 +42,6 @@ def fewer_collisions(data: Shear) -> Finding:
     )
 
 
-@PAPER.claim
 def ratio_settles(data: Shear) -> Finding:
     time, (ratio, error) = ratio_curve(data)
     distance, late = np.abs(ratio / 0.95 - 1.0), time > 4.0
@@ -59,7 +56,6 @@ def ratio_settles(data: Shear) -> Finding:
     )
 
 
-@PAPER.claim
 def first_profiles(data: Shear) -> Finding:
     early, parts = data.slab("early", "ihs"), {}
     for name in PROFILES:
@@ -76,7 +72,6 @@ def first_profiles(data: Shear) -> Finding:
     )
 
 
-@PAPER.claim
 def depopulated(data: Shear) -> Finding:
     curve = profile(data.slab("early", "ihs"), "density").over(TOP)
     least, final = int(np.argmin(curve.value)), curve.value[-20:].mean()
@@ -88,7 +83,6 @@ def depopulated(data: Shear) -> Finding:
     )
 
 
-@PAPER.claim
 def same_profiles(data: Shear) -> Finding:
     """Root mean square difference of IHS and EHS over layers, less what the errors make."""
     texts, worst = [], 0.0
@@ -110,7 +104,6 @@ def _apart(data: Shear, start: str, time: float, name: str) -> Estimate:
     return ihs - ehs
 
 
-@PAPER.claim
 def centre_at_rest(data: Shear) -> Finding:
     curve = profile(data.slab("early", "ihs"), "velocity_x").over(CENTRE)
     score, largest = curve.value[1:] / curve.error[1:], np.abs(curve.value).max()
@@ -118,7 +111,6 @@ def centre_at_rest(data: Shear) -> Finding:
     return Finding(text, largest < 0.03)
 
 
-@PAPER.claim
 def top_follows_the_plane(data: Shear) -> Finding:
     curve = profile(data.slab("early", "ihs"), "velocity_x").over(TOP)
     blocks = np.array([part.mean() for part in np.array_split(curve.value, 12)])
@@ -132,7 +124,6 @@ def top_follows_the_plane(data: Shear) -> Finding:
     )
 
 
-@PAPER.claim
 def linear_profile(data: Shear) -> Finding:
     texts, good = [], []
     for (start, equation), expected in zip(STARTS.items(), (0.0, SHIFT), strict=True):
@@ -148,7 +139,6 @@ def linear_profile(data: Shear) -> Finding:
     return Finding("; ".join(texts) + "; t > 2.4 τ0", all(good))
 
 
-@PAPER.claim
 def stationary(data: Shear) -> Finding:
     series, texts, good = data.slab("late", "ihs"), [], []
     clock, step = series["clock"].values, np.gradient(series["time"].values)
@@ -165,7 +155,6 @@ def stationary(data: Shear) -> Finding:
     return Finding(f"from the steady value: {'; '.join(texts)}", all(good))
 
 
-@PAPER.claim
 def proceeds_as_homogeneous(data: Shear) -> Finding:
     """Reduced stresses at equal temperature, slab from (3.5) against the homogeneous gas."""
     worst, largest = 0.0, 0.0
@@ -215,17 +204,14 @@ def _peaks(data: Shear, name: str, label: str) -> Finding:
     return Finding(f"maximum of {label} at s = {', '.join(texts)}", max(places) < 1.5)
 
 
-@PAPER.claim
 def normal_stress_peaks(data: Shear) -> Finding:
     return _peaks(data, "normal_stress_xy", "(P_xx-P_yy)/nT")
 
 
-@PAPER.claim
 def shear_stress_peaks(data: Shear) -> Finding:
     return _peaks(data, "shear_stress", "-P_xy/nT")
 
 
-@PAPER.claim
 def memory_fades(data: Shear) -> Finding:
     """Spread of the reduced stresses of the three starts at equal s."""
     spreads, texts = [], []

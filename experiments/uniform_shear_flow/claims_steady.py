@@ -8,7 +8,7 @@ from jdsmc.units import VISCOSITY_TIME
 
 from ..claims import Finding, every, percent, positive
 from .cases import BOTH, FAST, SLOW
-from .data import PAPER, Shear
+from .data import Shear
 from .measured import ISOTROPIC_SLOPE, over_ihs, slopes
 
 INTRINSIC = (
@@ -24,7 +24,6 @@ def listed(data: Shear, texts) -> str:
     return ", ".join(f"{text} at {alpha:g}" for text, alpha in pairs)
 
 
-@PAPER.claim
 def energy_balance(data: Shear) -> Finding:
     """Exact in the steady state: (2/3) a (-P_xy/nT) = ζ, which nothing in the program imposes."""
     worst, significance = 0.0, 0.0
@@ -42,7 +41,6 @@ def energy_balance(data: Shear) -> Finding:
     return Finding(text, worst < 0.005)
 
 
-@PAPER.claim
 def independent_of_shear_rate(data: Shear) -> Finding:
     scores = []
     for gas in BOTH:
@@ -60,7 +58,6 @@ def independent_of_shear_rate(data: Shear) -> Finding:
     )
 
 
-@PAPER.claim
 def order_of_pressures(data: Shear) -> Finding:
     rows = []
     for gas in BOTH:
@@ -71,7 +68,6 @@ def order_of_pressures(data: Shear) -> Finding:
     return Finding(f"least P_xx-nT, nT-P_zz, P_zz-P_yy over nT: {text}", np.all(least > 0))
 
 
-@PAPER.claim
 def gases_agree_above(data: Shear) -> Finding:
     texts, good, alpha = [], True, data.restitutions()
     for name in ("reduced_shear_rate", "shear_stress"):
@@ -83,7 +79,6 @@ def gases_agree_above(data: Shear) -> Finding:
     return Finding("largest |EHS/IHS - 1|: " + "; ".join(texts), good)
 
 
-@PAPER.claim
 def normal_stresses_differ_below(data: Shear) -> Finding:
     texts, off = [], {}
     for name in ("normal_stress_xy", "normal_stress_zy", "a3"):
@@ -96,7 +91,6 @@ def normal_stresses_differ_below(data: Shear) -> Finding:
     return Finding("EHS/IHS - 1 of " + "; ".join(texts), good)
 
 
-@PAPER.claim
 def cooling_rate_few_percent(data: Shear) -> Finding:
     values = data.against("ihs", "relative_speed_cubed").value
     return Finding(
@@ -111,7 +105,6 @@ def _cooling(data: Shear) -> tuple[Estimate, Estimate]:
     return data.against("ihs", names[0]), data.against("ihs", names[1])
 
 
-@PAPER.claim
 def energy_loss_agrees(data: Shear) -> Finding:
     pairs, lost = _cooling(data)
     score, off = np.abs(lost.distance(pairs)).max(), np.abs(lost.value / pairs.value - 1.0).max()
@@ -119,14 +112,12 @@ def energy_loss_agrees(data: Shear) -> Finding:
     return Finding(text, score < 3.5)
 
 
-@PAPER.claim
 def energy_loss_noisier(data: Shear) -> Finding:
     pairs, lost = _cooling(data)
     ratio = float(np.sqrt(np.mean(lost.error**2) / np.mean(pairs.error**2)))
     return Finding(f"error of the energy loss over that of the pairs: {ratio:.2f}", ratio > 1.2)
 
 
-@PAPER.claim
 def a3_zero(data: Shear) -> Finding:
     a3, alpha = data.against("ihs", "a3"), data.restitutions()
     quasi, strong = (-a3[int(np.argmin(np.abs(alpha - a)))] for a in (0.9, 0.5))
@@ -137,7 +128,6 @@ def a3_zero(data: Shear) -> Finding:
     )
 
 
-@PAPER.claim
 def isotropic_slope_fails(data: Shear) -> Finding:
     found = slopes(data)
     texts = [
@@ -153,7 +143,6 @@ def white_noise_a2(alpha):
     return 16 * (1 - alpha) * (1 - 2 * alpha**2) / (241 - 177 * alpha + 30 * (1 - alpha) * alpha**2)
 
 
-@PAPER.claim
 def difference_like_white_noise(data: Shear) -> Finding:
     ihs, ehs = data.both("a2")
     (value, error), expected = ihs - ehs, white_noise_a2(data.restitutions())
@@ -163,7 +152,6 @@ def difference_like_white_noise(data: Shear) -> Finding:
     return Finding(f"a2_IHS - a2_EHS (white noise): {text}", good)
 
 
-@PAPER.claim
 def bgk_a2(data: Shear) -> Finding:
     model = bgk_shear_flow.steady_state(data.restitutions()).a2
     ihs = data.against("ihs", "a2").value
@@ -171,7 +159,6 @@ def bgk_a2(data: Shear) -> Finding:
     return Finding(f"a2 of BGK over IHS - 1: {text}", np.all(np.abs(model - ihs) < 0.1))
 
 
-@PAPER.claim
 def bgk_a3(data: Shear) -> Finding:
     model = -bgk_shear_flow.steady_state(data.restitutions()).a3
     ihs, ehs = (-found.value for found in data.both("a3"))
@@ -181,7 +168,6 @@ def bgk_a3(data: Shear) -> Finding:
     return Finding(f"-a3 of BGK (IHS, EHS): {text}", good)
 
 
-@PAPER.claim
 def measured_drag_temperature(data: Shear) -> Finding:
     excess = over_ihs("temperature", "ehs_measured")(data) - 1.0
     return Finding(f"T/T_IHS - 1 = {percent(excess, 2)}", positive(-excess))
@@ -195,19 +181,16 @@ def _closer(data: Shear, name: str) -> tuple[str, bool | None]:
     return f"{name} {local} -> {measured} (IHS {ihs})", positive(gain)
 
 
-@PAPER.claim
 def measured_drag_closer(data: Shear) -> Finding:
     found = [_closer(data, n) for n in ("temperature", "shear_stress", "normal_stress_xy")]
     return Finding("; ".join(text for text, _ in found), every(sign for _, sign in found))
 
 
-@PAPER.claim
 def measured_drag_not_closer(data: Shear) -> Finding:
     found = [_closer(data, name) for name in ("relative_speed_cubed", "a2")]
     return Finding("; ".join(text for text, _ in found), not any(sign for _, sign in found))
 
 
-@PAPER.claim
 def measured_drag_a3(data: Shear) -> Finding:
     gases = ("ihs", "ehs", "ehs_measured")
     ihs, local, measured = (float(data.steady(gas, 0.5, FAST, "a3")) for gas in gases)
@@ -216,7 +199,6 @@ def measured_drag_a3(data: Shear) -> Finding:
     return Finding(text, 0 < gain < 0.4)
 
 
-@PAPER.claim
 def viscosity_factor_worse(data: Shear) -> Finding:
     texts, worse, gases = [], [], ("ihs", "ehs", "ehs_viscosity")
     for alpha in data.restitutions("ehs_viscosity"):
@@ -226,7 +208,6 @@ def viscosity_factor_worse(data: Shear) -> Finding:
     return Finding("η*_s: " + "; ".join(texts), every(worse))
 
 
-@PAPER.claim
 def bgk_closer_to_ihs(data: Shear) -> Finding:
     texts, closer = [], []
     for label, name in (("η*", "reduced_viscosity"), ("-Ψ1", "first_viscometric")):

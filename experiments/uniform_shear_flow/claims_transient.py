@@ -8,13 +8,12 @@ from jdsmc.theory import bgk_shear_flow
 from ..case import estimate
 from ..claims import Finding, percent
 from .cases import BOTH, FAST, SLOW
-from .data import PAPER, Shear
+from .data import Shear
 from .measured import HYDRODYNAMIC, running_mean
 
 RATES = (FAST, SLOW)
 
 
-@PAPER.claim
 def heating_or_cooling(data: Shear) -> Finding:
     fast, slow = (data.against("ihs", "temperature", rate).value for rate in RATES)
     return Finding(
@@ -23,7 +22,6 @@ def heating_or_cooling(data: Shear) -> Finding:
     )
 
 
-@PAPER.claim
 def collisions_agree(data: Shear) -> Finding:
     """(s'/β)/s at equal times, after one collision per particle."""
     worst = 0.0
@@ -36,7 +34,6 @@ def collisions_agree(data: Shear) -> Finding:
     return Finding(f"|(s'/β)/s - 1| <= {percent(worst, 2)} for s > 1", worst < 0.02)
 
 
-@PAPER.claim
 def ehs_hotter(data: Shear) -> Finding:
     least, lowest = {}, []
     for alpha in (0.5, 0.7):
@@ -63,7 +60,6 @@ def _temperature_excess(data: Shear, restitution: float, shear_rate: float) -> E
     return Estimate(excess[compared], error[compared])
 
 
-@PAPER.claim
 def bgk_overestimates_collisions(data: Shear) -> Finding:
     ratios = []
     for gas in BOTH:
@@ -76,7 +72,6 @@ def bgk_overestimates_collisions(data: Shear) -> Finding:
     return Finding(text, min(ratios) > 0)
 
 
-@PAPER.claim
 def fewer_than_local_equilibrium(data: Shear) -> Finding:
     late, worst = [], 0.0
     for gas in BOTH:
@@ -94,7 +89,6 @@ def fewer_than_local_equilibrium(data: Shear) -> Finding:
     )
 
 
-@PAPER.claim
 def bgk_temperature(data: Shear) -> Finding:
     model = float(bgk_shear_flow.steady_state(0.5, FAST).temperature)
     ihs, ehs = (model / float(data.steady(g, 0.5, FAST, "temperature")) - 1.0 for g in BOTH)
@@ -104,7 +98,6 @@ def bgk_temperature(data: Shear) -> Finding:
     )
 
 
-@PAPER.claim
 def kinetic_maximum(data: Shear) -> Finding:
     places = {}
     for name in ("shear_stress", "normal_stress_xy", "relative_speed_cubed", "a2"):
@@ -114,7 +107,6 @@ def kinetic_maximum(data: Shear) -> Finding:
     return Finding(f"largest s at the maximum: {text}", max(places.values()) < 2.0)
 
 
-@PAPER.claim
 def curves_coincide(data: Shear) -> Finding:
     edges = np.linspace(0.2, 1.6, 15)
     ihs, ehs = (_viscosity_curve(data, gas, edges) for gas in BOTH)
@@ -153,7 +145,6 @@ def _bgk_curve(at: np.ndarray) -> np.ndarray:
     return curve
 
 
-@PAPER.claim
 def fluctuations(data: Shear) -> Finding:
     """Root mean square over both shear rates of the standard error of one record, s > 20."""
 

@@ -11,17 +11,8 @@ from jdsmc.gases.hard_spheres import RATE_FACTORS
 from ..case import Measurements, at, estimate, steady
 from ..numbers import mean, stack
 from ..paper import Paper
-from .cases import (
-    FAST,
-    LAYERS,
-    LENGTH,
-    SIZES,
-    SLAB_RESTITUTION,
-    SLOW,
-    Size,
-    cases,
-    variation,
-)
+from . import cases
+from .cases import FAST, LAYERS, LENGTH, SLAB_RESTITUTION, SLOW, variation
 
 CENTRE, TOP = slice(LAYERS // 2 - 2, LAYERS // 2 + 2), slice(LAYERS - 3, LAYERS)
 """The four central and the three top layers of Fig. 3."""
@@ -62,10 +53,8 @@ class Curve:
 class Shear(Measurements):
     """All results of a run of this experiment."""
 
-    size: Size
-
-    def __init__(self, size: Size, folder: Path, fresh: bool = False):
-        super().__init__(size, cases(size), folder, fresh)
+    def __init__(self, size, folder: Path, fresh: bool = False):
+        super().__init__(size, cases.cases(size), folder, fresh)
 
     def rates(self, gas: str) -> tuple[float, ...]:
         """Shear rates of the steady states of a gas."""
@@ -143,4 +132,4 @@ def profile(series: xr.Dataset, name: str) -> Curve:
     return Curve(series["time"].values, Estimate(value / scale, error / scale))
 
 
-PAPER = Paper("uniform_shear_flow", SIZES, Shear)
+PAPER = Paper("uniform_shear_flow", Shear)

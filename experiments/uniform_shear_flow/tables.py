@@ -8,7 +8,6 @@ from jdsmc.theory import bgk_shear_flow
 from ..claims import Verdict, shown
 from ..markdown import grid, score
 from ..numbers import each
-from ..paper import simulations
 from . import independent
 from .cases import BOTH, FAST, LABELS, POINTS, STARTS
 from .checks import (
@@ -27,13 +26,10 @@ from .data import PAPER, Shear
 from .measured import SHARES
 from .slab import TIMES
 
-PAPER.table(simulations)
-
 PAPER_RECORD = 0.16
 """The paper records every 160 steps of 0.001 τ(T̄): section IV A."""
 
 
-@PAPER.table
 def paper_records(data: Shear) -> list[str]:
     """When the paper can have measured in the slab, and what s was then."""
     rows = []
@@ -54,7 +50,6 @@ def paper_records(data: Shear) -> list[str]:
     return grid(["from", "t quoted", *(2 * ["record", "t", "s", "s with N_I²"])], rows)
 
 
-@PAPER.table
 def slab_steady_states(data: Shear) -> list[str]:
     """Slab and homogeneous gas side by side."""
     same = ("shear_stress", "normal_stress_xy", "normal_stress_zy", "reduced_shear_rate")
@@ -70,7 +65,6 @@ def slab_steady_states(data: Shear) -> list[str]:
     return grid(["gas", "observable", "slab", "homogeneous", "difference/σ"], rows)
 
 
-@PAPER.table
 def disagreements(data: Shear) -> list[str]:
     """Every disagreement with what the same point gives with other numerical choices."""
     numbers, sentences = (PAPER.verdicts(data, h) for h in ("Quoted numbers", "Statements"))
@@ -124,7 +118,6 @@ def _remarks(data: Shear, apart: list[Verdict]) -> list[str]:
 CHECKED = ("temperature", "shear_stress", "normal_stress_xy", "normal_stress_zy", "a2", "a3")
 
 
-@PAPER.table
 def independent_check(data: Shear) -> list[str]:
     """Our steady values at a τ0 = 4 beside those of a plain sequential loop."""
     if not independent.available():
@@ -140,7 +133,6 @@ def independent_check(data: Shear) -> list[str]:
     return grid(["system", "observable", "jdsmc", "sequential loop", "difference/σ"], rows)
 
 
-@PAPER.table
 def limits(data: Shear) -> list[str]:
     """The convergence study: limits and how far the defaults are from them."""
     rows = []
@@ -156,7 +148,6 @@ def limits(data: Shear) -> list[str]:
     return grid([*header, "both: %", "χ²/ν", "default within 0.3%?"], rows)
 
 
-@PAPER.table
 def study_values(data: Shear) -> list[str]:
     """What the convergence study measured, run by run."""
     rows = []
@@ -182,7 +173,6 @@ STEADY_COLUMNS = {
 }
 
 
-@PAPER.table
 def steady_states(data: Shear) -> list[str]:
     """All steady values: the data of Figs. 14 and 16, with T_s/T0."""
     rows, names = [], ("temperature", *STEADY_COLUMNS)
@@ -201,7 +191,6 @@ def steady_states(data: Shear) -> list[str]:
     return grid(["gas", "α", "a τ0", "T_s/T0", *STEADY_COLUMNS.values()], rows)
 
 
-@PAPER.table
 def viscometric(data: Shear) -> list[str]:
     """The data of Fig. 15, averaged over both shear rates."""
     names = ("reduced_shear_rate", "reduced_viscosity", "first_viscometric", "second_viscometric")

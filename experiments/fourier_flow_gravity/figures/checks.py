@@ -1,13 +1,12 @@
 """The balance laws, the error budget, and Maxwell molecules."""
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from jdsmc import Estimate
 from jdsmc.results.gravity_effect import points as at_equal_gradient
 
 from ...numbers import over_parts
-from ...style import COLOURS, OPEN, band, figure
+from ...style import COLOURS, OPEN, band
 from .. import balance as laws
 from .. import profiles
 from ..cases import COLDEST, EXAMPLE
@@ -18,10 +17,9 @@ TOGETHER = 4
 """Layers drawn as one; the error is that of a single one: neighbours are correlated."""
 
 
-@PAPER.figure("balance")
-def balance(data: Fourier) -> Figure:
+@PAPER.figure("balance", 1, 3, 14.0, 4.2)
+def balance(data: Fourier, axes) -> None:
     """What should be uniform by (12) and (13), less its mean over the slab."""
-    found, axes = figure(1, 3, 14.0, 4.2)
     titles = (laws.momentum, "(12): $P_{zz} + g\\int n\\,dz$"), (laws.energy, "(13): $q_z$")
     for ax, (test, title) in zip(axes[0], titles, strict=False):
         for gravity, colour in GRAVITY_COLOURS.items():
@@ -35,13 +33,12 @@ def balance(data: Fourier) -> Figure:
         ax.set(xlabel="z/L", title=f"{title}, less its mean", xlim=(0, 1))
         ax.legend(fontsize=7)
     _thick_layers(axes[0, 2], data)
-    return found
 
 
 def _thick_layers(ax, data: Fourier) -> None:
     """q_z carried in layers that are not thin at the cold wall, beside the known cell error."""
     for combination, colour in zip((EXAMPLE, COLDEST), COLOURS, strict=False):
-        for gravity, marker in ((0.0, "o"), (max(data.size.gravity[combination]), "s")):
+        for gravity, marker in ((0.0, "o"), (max(data.gravity[combination]), "s")):
             state = data.realizations(combination, gravity)
             ratio = state["heat_flux"].values / state["mean_heat_flux"].values[:, None]
             thick = laws.thickness(state)
@@ -61,12 +58,11 @@ def _coarse(values: np.ndarray) -> np.ndarray:
     return values[len(values) % TOGETHER :].reshape(-1, TOGETHER).mean(axis=1)
 
 
-@PAPER.figure("budget")
-def budget(data: Fourier) -> Figure:
+@PAPER.figure("budget", 1, 2, 10.0, 4.4)
+def budget(data: Fourier, axes) -> None:
     """κ* and Δκ* with other windows and other numerics."""
     entries = [*profiles.windows(data), *profiles.variants(data)[1:]]
     names, labels = list(entries[0].values), [entry.label for entry in entries]
-    found, axes = figure(1, len(names), 10.0, 4.4)
     for ax, name in zip(axes[0], names, strict=True):
         for k, entry in enumerate(entries):
             colour = COLOURS[1] if entry.changes else COLOURS[0]
@@ -75,13 +71,11 @@ def budget(data: Fourier) -> Figure:
         ax.axhline(default, color="0.8", lw=0.8, zorder=0)
         ax.set_xticks(range(len(labels)), labels, rotation=30, ha="right", fontsize=8)
         ax.set(title=f"{name}, {EXAMPLE.label}")
-    return found
 
 
-@PAPER.figure("maxwell_molecules")
-def maxwell_molecules(data: Fourier) -> Figure:
+@PAPER.figure("maxwell_molecules", 1, 2, 11.0, 4.4)
+def maxwell_molecules(data: Fourier, axes) -> None:
     """κ* across the slab at g = 0, and Δκ* against g* beside eq. (6)."""
-    found, axes = figure(1, 2, 11.0, 4.4)
     for (length, result), colour in zip(data.molecules.items(), COLOURS, strict=False):
         band(axes[0, 0], *profiles.molecular_profile(result), colour, label=f"L = {length:g}")
         there = at_equal_gradient(result, profiles.MAXWELL_WINDOW * length)
@@ -99,4 +93,3 @@ def maxwell_molecules(data: Fourier) -> Figure:
     axes[0, 0].legend(fontsize=8)
     axes[0, 1].set(xlabel="g*", ylabel="Δκ*", title="lines: eq. (6)")
     axes[0, 1].legend(fontsize=8)
-    return found

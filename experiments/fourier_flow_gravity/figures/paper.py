@@ -1,10 +1,9 @@
 """Figures 2 to 6: profiles between the walls; figure 7, and all rows of tables 2 to 5."""
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from ...case import estimate
-from ...style import COLOURS, band, figure
+from ...style import COLOURS, band
 from .. import effect
 from ..cases import COMBINATIONS, EXAMPLE, EXAMPLE_GRAVITY, FIGURE_6
 from ..data import PAPER, Fourier, share
@@ -15,32 +14,29 @@ SHADES = dict(zip(COMBINATIONS, COLOURS, strict=False))
 FINE = np.linspace(-0.11, 0.1, 100)
 
 
-def _profiles(data: Fourier, name: str, label: str, power: float = 1.0, **place) -> Figure:
+def _profiles(data: Fourier, ax, name: str, label: str, power: float = 1.0, **place) -> None:
     """A profile at every g of Figs. 2 to 5; `place`: of the legend."""
-    found, axes = figure(1, 1, 6.4, 4.8)
     for gravity, colour in GRAVITY_COLOURS.items():
         state = data.state(EXAMPLE, gravity)
         curve = estimate(state, name) ** power
-        band(axes[0, 0], share(state), curve, colour, label=f"g = {gravity:g}")
+        band(ax, share(state), curve, colour, label=f"g = {gravity:g}")
     title = f"{EXAMPLE.label}\nbands: 1 s.e."
-    axes[0, 0].legend(fontsize=8, title=title, title_fontsize=8, **place)
-    axes[0, 0].set(xlabel="z/L (cold wall at 0, hot wall at 1)", ylabel=label, xlim=(0, 1))
-    return found
+    ax.legend(fontsize=8, title=title, title_fontsize=8, **place)
+    ax.set(xlabel="z/L (cold wall at 0, hot wall at 1)", ylabel=label, xlim=(0, 1))
 
 
-@PAPER.figure("fig2_temperature")
-def temperature(data: Fourier) -> Figure:
+@PAPER.figure("fig2_temperature", 1, 1, 6.4, 4.8)
+def temperature(data: Fourier, axes) -> None:
     """Fig. 2: T^(3/2)."""
-    found = _profiles(data, "temperature", "$T^{3/2}$", power=1.5)
-    found.axes[0].set_ylim(0, 1)
-    return found
+    _profiles(data, axes[0, 0], "temperature", "$T^{3/2}$", power=1.5)
+    axes[0, 0].set_ylim(0, 1)
 
 
-@PAPER.figure("fig3_heat_flux")
-def heat_flux(data: Fourier) -> Figure:
+@PAPER.figure("fig3_heat_flux", 1, 1, 6.4, 4.8)
+def heat_flux(data: Fourier, axes) -> None:
     """Fig. 3: q_z, with its mean and the two wall fluxes as marks at the ends."""
-    found = _profiles(data, "heat_flux", "$q_z$", loc="center left", bbox_to_anchor=(1.0, 0.5))
-    ax = found.axes[0]
+    ax = axes[0, 0]
+    _profiles(data, ax, "heat_flux", "$q_z$", loc="center left", bbox_to_anchor=(1.0, 0.5))
     for gravity, colour in GRAVITY_COLOURS.items():
         state = data.state(EXAMPLE, gravity)
         for side, x in (("cold", 0.0), ("hot", 1.0)):
@@ -48,34 +44,30 @@ def heat_flux(data: Fourier) -> Figure:
             ax.errorbar(x, *flux, fmt="o", ms=4, capsize=2, color=colour, clip_on=False)
         ax.axhline(float(state["mean_heat_flux"]), color=colour, lw=0.8, ls=":", zorder=0)
     ax.set_title("circles: energy exchanged at the walls; dotted: mean", fontsize=9)
-    return found
 
 
-@PAPER.figure("fig4_pressures")
-def pressures(data: Fourier) -> Figure:
+@PAPER.figure("fig4_pressures", 1, 1, 6.4, 4.8)
+def pressures(data: Fourier, axes) -> None:
     """Fig. 4: p and P_zz."""
-    found = _profiles(data, "pressure", "$p$ (full), $P_{zz}$ (dashed)")
+    _profiles(data, axes[0, 0], "pressure", "$p$ (full), $P_{zz}$ (dashed)")
     for gravity, colour in GRAVITY_COLOURS.items():
         state = data.state(EXAMPLE, gravity)
-        band(found.axes[0], share(state), estimate(state, "pressure_zz"), colour, "--")
-    return found
+        band(axes[0, 0], share(state), estimate(state, "pressure_zz"), colour, "--")
 
 
-@PAPER.figure("fig5_density")
-def density(data: Fourier) -> Figure:
+@PAPER.figure("fig5_density", 1, 1, 6.4, 4.8)
+def density(data: Fourier, axes) -> None:
     """Fig. 5: n, logarithmic."""
-    found = _profiles(data, "density", "$n$")
+    _profiles(data, axes[0, 0], "density", "$n$")
     ticks = (0.3, 0.5, 1, 2, 4, 8)
-    found.axes[0].set_yscale("log")
-    found.axes[0].set_yticks(ticks, [f"{tick:g}" for tick in ticks])
-    found.axes[0].minorticks_off()
-    return found
+    axes[0, 0].set_yscale("log")
+    axes[0, 0].set_yticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes[0, 0].minorticks_off()
 
 
-@PAPER.figure("fig6_kinds_of_wall")
-def kinds_of_wall(data: Fourier) -> Figure:
+@PAPER.figure("fig6_kinds_of_wall", 1, 2, 10.0, 4.4, sharey=True)
+def kinds_of_wall(data: Fourier, axes) -> None:
     """Fig. 6: T^(3/2) with walls of type I and II, T_- = 0.01."""
-    found, axes = figure(1, 2, 10.0, 4.4, sharey=True)
     looks = zip(COMBINATIONS[2:], COLOURS, ("--", "-"), ("type I", "type II"), strict=False)
     for combination, *look in looks:
         for ax, gravity in zip(axes[0], FIGURE_6, strict=True):
@@ -85,17 +77,15 @@ def kinds_of_wall(data: Fourier) -> Figure:
         ax.set(xlabel="z/L", xlim=(0, 1), ylim=(0, 1), title=f"({part}) g = {gravity:g}")
     axes[0, 0].legend(fontsize=9, title="$T_-$ = 0.01")
     axes[0, 0].set_ylabel("$T^{3/2}$")
-    return found
 
 
-@PAPER.figure("fig7_gravity_effect")
-def gravity_effect(data: Fourier) -> Figure:
+@PAPER.figure("fig7_gravity_effect", 2, 2, 10.0, 7.6, sharex=True, sharey=True)
+def gravity_effect(data: Fourier, axes) -> None:
     """Fig. 7: the change of κ* with g*, ours and the paper's numbers with parabolas.
 
     Drawn from the value of the parabola at g* = 0: Δκ* as in the tables has the error of the one
     state g = 0 in all points.
     """
-    found, axes = figure(2, 2, 10.0, 7.6, sharex=True, sharey=True)
     for ax, combination in zip(axes.ravel(), COMBINATIONS, strict=True):
         ours, paper = data.effects[combination], effect.table(combination)
         fit, other = data.responses[combination], effect.paper_response(combination)
@@ -122,13 +112,11 @@ def gravity_effect(data: Fourier) -> Figure:
         ax.set_xlabel("g*")
     for ax in axes[:, 0]:
         ax.set_ylabel("κ* - κ*(g = 0) of the parabola")
-    return found
 
 
-@PAPER.figure("rows")
-def rows(data: Fourier) -> Figure:
+@PAPER.figure("rows", 1, 5, 13.0, 4.2, sharey=True)
+def rows(data: Fourier, axes) -> None:
     """Ours minus the paper's in combined errors, every number of tables 2 to 5."""
-    found, axes = figure(1, len(effect.SYMBOLS), 13.0, 4.2, sharey=True)
     titles = effect.SYMBOLS | {"mean_free_paths": "$\\mathcal{N}(z_0)$"}
     for ax, (name, title) in zip(axes[0], titles.items(), strict=True):
         for c in COMBINATIONS:
@@ -140,4 +128,3 @@ def rows(data: Fourier) -> Figure:
         ax.set(xlabel="g", title=title)
     axes[0, 0].set_ylabel("(ours - paper) / combined error")
     axes[0, 0].legend(fontsize=7)
-    return found

@@ -1,13 +1,12 @@
 """Our checks: linearity in the field, time steps, the cooling state, kicks, work to precision."""
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from jdsmc.theory import homogeneous_cooling
 from jdsmc.theory.transport import first_sonine, modified_first_sonine
 
 from ...numbers import stack
-from ...style import COLOURS, figure, points
+from ...style import COLOURS, points
 from ..cases import PAPER_FIELD, STUDY_FIELD, STUDY_RESTITUTION
 from ..coefficients import NAMES, coefficient, elastic
 from ..data import PAPER, Heat
@@ -16,10 +15,9 @@ from ..numerics import TOLERANCE, kicks, methods, scheme
 from .paper import BARS, FINE
 
 
-@PAPER.figure("linearity")
-def linearity(data: Heat) -> Figure:
+@PAPER.figure("linearity", 2, 2, 9.5, 7.5, sharex=True)
+def linearity(data: Heat, axes) -> None:
     """Every quantity against ε*², with the fits; dotted: the paper's field."""
-    found, axes = figure(2, 2, 9.5, 7.5, sharex=True)
     for ax, quantity in zip(axes.ravel(), (CONDUCTIVITY, *SONINE), strict=True):
         fields = np.array(used(data, quantity))
         for alpha, colour in zip((0.3, 0.5, 1.0), COLOURS, strict=False):
@@ -38,13 +36,11 @@ def linearity(data: Heat) -> Figure:
     axes[0, 0].legend(fontsize=8, **BARS)
     for ax in axes[1]:
         ax.set_xlabel("ε*²")
-    return found
 
 
-@PAPER.figure("time_step")
-def time_step(data: Heat) -> Figure:
+@PAPER.figure("time_step", 1, 1, 6.4, 4.4)
+def time_step(data: Heat, axes) -> None:
     """κ' against the time step: exact flow and symmetric splitting, and the paper's step."""
-    found, axes = figure(1, 1, 6.4, 4.4)
     ax = axes[0, 0]
     best = float(scheme(data, "exact").fit.limit)
     for name, label, colour in (
@@ -63,13 +59,11 @@ def time_step(data: Heat) -> Figure:
     title = f"α = {STUDY_RESTITUTION:g}, ε* = {STUDY_FIELD:g}; error bars: 1 s.e.; lines: fits"
     ax.set_title(title, fontsize=10)
     ax.legend(fontsize=8)
-    return found
 
 
-@PAPER.figure("cooling_state")
-def cooling(data: Heat) -> Figure:
+@PAPER.figure("cooling_state", 3, 1, 6.4, 8.5, sharex=True)
+def cooling(data: Heat, axes) -> None:
     """a2, a3 and ζ of the cooling state against α, with (2.16) and (2.14)."""
-    found, axes = figure(3, 1, 6.4, 8.5, sharex=True)
     a2 = homogeneous_cooling.kurtosis(FINE)
     lines = {"a2": ("(2.16)", a2), "a3": (None, None)}
     lines["relative_speed_cubed"] = ("(2.14)", 1 + 3 / 16 * a2)
@@ -81,13 +75,11 @@ def cooling(data: Heat) -> Figure:
         ax.set_ylabel({"relative_speed_cubed": "ζ/ζ of a Maxwellian"}.get(name, name))
         ax.legend(fontsize=8)
     axes[-1, 0].set_xlabel("coefficient of restitution α")
-    return found
 
 
-@PAPER.figure("navier_stokes")
-def navier_stokes(data: Heat) -> Figure:
+@PAPER.figure("navier_stokes", 2, 2, 9.5, 7, sharex=True)
+def navier_stokes(data: Heat, axes) -> None:
     """κ', κ, nμ/Tκ0, η by kicks (ε → 0) beside both Sonine approximations and elastic values."""
-    found, axes = figure(2, 2, 9.5, 7, sharex=True)
     for ax, (name, label) in zip(axes.ravel(), NAMES.items(), strict=True):
         values = data.over_restitutions(lambda a, name=name: coefficient(data, name, a).limit)
         look = {"fmt": "^", "color": COLOURS[1], "label": "kicks, ε → 0"}
@@ -102,7 +94,6 @@ def navier_stokes(data: Heat) -> Figure:
     axes[0, 0].legend(fontsize=8, **BARS)
     for ax in axes[1]:
         ax.set_xlabel("coefficient of restitution α")
-    return found
 
 
 STYLES = (
@@ -111,10 +102,9 @@ STYLES = (
 )
 
 
-@PAPER.figure("work_precision")
-def work_precision(data: Heat) -> Figure:
+@PAPER.figure("work_precision", 1, 1, 7.4, 5)
+def work_precision(data: Heat, axes) -> None:
     """Bias and statistical error in quadrature against particle-steps, at α = 0.5."""
-    found, axes = figure(1, 1, 7.4, 5)
     ax, effort = axes[0, 0], np.geomspace(1e8, 1e13, 400)
     for method, (colour, line) in zip(methods(data), STYLES, strict=True):
         error = 100 * method.error(effort)
@@ -128,4 +118,3 @@ def work_precision(data: Heat) -> Figure:
     ax.set_title("α = 0.5: bias and one standard error, in quadrature", fontsize=10)
     ax.grid(alpha=0.3, which="both")
     ax.legend(fontsize=8)
-    return found

@@ -1,14 +1,13 @@
 """Figures 1 to 7 of the paper."""
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from jdsmc.theory import sonine_elastic
 from jdsmc.theory.transport import elastic_sonine_coefficient, first_sonine, modified_first_sonine
 from jdsmc.units import CONVERGED_ORDER
 
 from ...numbers import mean
-from ...style import COLOURS, band, figure, legend_of, points
+from ...style import COLOURS, band, legend_of, points
 from ..cases import PAPER_FIELD
 from ..coefficients import coefficient, elastic
 from ..data import PAPER, Heat
@@ -26,10 +25,9 @@ LARGEST = 10.0
 SERIES = ((":", COLOURS[1]), ("-.", COLOURS[2]), ("--", COLOURS[3]))
 
 
-@PAPER.figure("fig1_transient_conductivity")
-def transient_conductivity(data: Heat) -> Figure:
+@PAPER.figure("fig1_transient_conductivity", 1, 1, 6.4, 4.2)
+def transient_conductivity(data: Heat, axes) -> None:
     """Fig. 1: κ'(t)/κ0 at α = 0.3 for two fields; dotted: the steady value at the weaker one."""
-    found, axes = figure(1, 1, 6.4, 4.2)
     ax = axes[0, 0]
     for strength, line, colour in ((0.05, "--", COLOURS[1]), (PAPER_FIELD, "-", COLOURS[0])):
         time, parts = data.transient(0.3, strength).each_series(0.3, CONDUCTIVITY.name)
@@ -38,13 +36,11 @@ def transient_conductivity(data: Heat) -> Figure:
     ax.axhline(steady.value, label=f"steady, ε* = {PAPER_FIELD:g}", **STEADY)
     ax.legend(fontsize=8, **BANDS)
     ax.set(xlabel="t/τ", ylabel="κ'(t)/κ0", title="α = 0.3", ylim=(0, None))
-    return found
 
 
-@PAPER.figure("fig2_transient_sonine")
-def transient_sonine(data: Heat) -> Figure:
+@PAPER.figure("fig2_transient_sonine", 2, 1, 6.4, 7.5, sharex=True)
+def transient_sonine(data: Heat, axes) -> None:
     """Fig. 2: b'_k(t) from (3.10) solid and from (3.12) dashed, at ε* = 0.025; dotted: steady."""
-    found, axes = figure(2, 1, 6.4, 7.5, sharex=True)
     for ax, alpha in zip(axes[:, 0], (1.0, 0.3), strict=True):
         pool = data.transient(alpha, PAPER_FIELD)
         for colour, *both in zip(COLOURS, SONINE, MARGINAL, strict=False):
@@ -58,13 +54,11 @@ def transient_sonine(data: Heat) -> Figure:
     axes[1, 0].set_xlabel("t/τ")
     handles = legend_of(entries | {"steady": STEADY})
     axes[0, 0].legend(handles=handles, fontsize=8, ncols=2, **BANDS)
-    return found
 
 
-@PAPER.figure("fig3_conductivity")
-def conductivity(data: Heat) -> Figure:
+@PAPER.figure("fig3_conductivity", 1, 1, 6.4, 4.8)
+def conductivity(data: Heat, axes) -> None:
     """Fig. 3: κ'/κ0 by the force and by kicks, both Sonine approximations, the elastic value."""
-    found, axes = figure(1, 1, 6.4, 4.8)
     ax, alpha = axes[0, 0], np.array(data.restitutions)
     paper = data.over_restitutions(lambda a: at_field(data, CONDUCTIVITY, a, PAPER_FIELD))
     ax.plot(alpha, paper.value, "x", color="0.5", label=f"force, ε* = {PAPER_FIELD:g}")
@@ -78,13 +72,11 @@ def conductivity(data: Heat) -> Figure:
     ax.annotate(f"{exact:.6f}", (1.0, exact), (0.8, 0.975), arrowprops={"arrowstyle": "->"})
     ax.set(xlabel="coefficient of restitution α", ylabel="κ'/κ0", ylim=(0.95, 1.65))
     ax.legend(fontsize=8, **BARS)
-    return found
 
 
-@PAPER.figure("fig4_sonine")
-def sonine(data: Heat) -> Figure:
+@PAPER.figure("fig4_sonine", 1, 1, 6.4, 4.8)
+def sonine(data: Heat, axes) -> None:
     """Fig. 4: b'_k for ε* → 0 and at the paper's field; stars: exact elastic values."""
-    found, axes = figure(1, 1, 6.4, 4.8)
     ax, alpha = axes[0, 0], np.array(data.restitutions)
     exact = sonine_elastic.sonine_coefficients(CONVERGED_ORDER)
     for q, marker, colour, star in zip(SONINE, "os^", COLOURS, exact, strict=False):
@@ -101,23 +93,21 @@ def sonine(data: Heat) -> Figure:
     ax.axhline(0, color="0.8", lw=0.8, zorder=0)
     ax.set(xlabel="coefficient of restitution α", ylabel="b'_k")
     ax.legend(fontsize=7, ncols=2, **BARS)
-    return found
 
 
-@PAPER.figure("fig5_distribution_weak")
-def weak(data: Heat) -> Figure:
+@PAPER.figure("fig5_distribution_weak", 2, 1, 6.4, 6.8, sharex=True)
+def weak(data: Heat, axes) -> None:
     """Fig. 5: φ(c_x²) and the truncated series φ_1, φ_2, φ_3 for α = 1 and 0.9."""
-    return _distributions(data, (1.0, 0.9))
+    _distributions(data, axes, (1.0, 0.9))
 
 
-@PAPER.figure("fig6_distribution_strong")
-def strong(data: Heat) -> Figure:
+@PAPER.figure("fig6_distribution_strong", 3, 1, 6.4, 10.2, sharex=True)
+def strong(data: Heat, axes) -> None:
     """Fig. 6: the same for α = 0.7, 0.5, 0.3."""
-    return _distributions(data, (0.7, 0.5, 0.3))
+    _distributions(data, axes, (0.7, 0.5, 0.3))
 
 
-def _distributions(data: Heat, restitutions) -> Figure:
-    found, axes = figure(len(restitutions), 1, 6.4, 3.4 * len(restitutions), sharex=True)
+def _distributions(data: Heat, axes, restitutions) -> None:
     squared = np.linspace(0, LARGEST, 200)
     for ax, alpha in zip(axes[:, 0], restitutions, strict=True):
         odd = odd_part(data, alpha, PAPER_FIELD)
@@ -134,13 +124,11 @@ def _distributions(data: Heat, restitutions) -> Figure:
         ax.set_title(f"α = {alpha:g}, ε* = {PAPER_FIELD:g}", fontsize=10)
     axes[0, 0].legend(fontsize=8)
     axes[-1, 0].set_xlabel("c_x²")
-    return found
 
 
-@PAPER.figure("fig7_share")
-def shares(data: Heat) -> Figure:
+@PAPER.figure("fig7_share", 1, 1, 6.4, 4.6)
+def shares(data: Heat, axes) -> None:
     """Fig. 7: β1(c_x²)/b'_1 for five restitutions; dotted line: c_x² = 6."""
-    found, axes = figure(1, 1, 6.4, 4.6)
     ax = axes[0, 0]
     for alpha, colour in zip((1.0, 0.9, 0.7, 0.5, 0.3), COLOURS, strict=True):
         odd = odd_part(data, alpha, PAPER_FIELD)
@@ -152,4 +140,3 @@ def shares(data: Heat) -> Figure:
     ax.set(xlabel="c_x²", ylabel="β1(c_x²)/b'_1", xlim=(0, 20))
     ax.set_title(f"ε* = {PAPER_FIELD:g}; bands: 1 s.e.", fontsize=10)
     ax.legend(fontsize=8)
-    return found

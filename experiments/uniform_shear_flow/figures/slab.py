@@ -1,10 +1,9 @@
 """Figures 1 to 4 and 9: the inhomogeneous problem."""
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from ...case import estimate
-from ...style import COLOURS, band, figure, legend_of
+from ...style import COLOURS, band, legend_of
 from ..cases import BOTH, FAST, LENGTH, SLAB_RESTITUTION, STARTS
 from ..claims_slab import PROFILES, SHIFT, flat
 from ..data import CENTRE, HEIGHT, PAPER, TOP, Shear, beta, profile
@@ -14,10 +13,9 @@ from .common import CLOCK, LINES, STRESSES, legend
 SLAB = f"α = {SLAB_RESTITUTION}, a τ0 = {FAST:g}, L = {LENGTH} λ0"
 
 
-@PAPER.figure("fig01_slab_collisions")
-def collisions(data: Shear) -> Figure:
+@PAPER.figure("fig01_slab_collisions", 1, 1, 6.8, 4.6)
+def collisions(data: Shear, axes) -> None:
     """Fig. 1: s(t) and s'(t), and their ratio."""
-    found, axes = figure(1, 1, 6.8, 4.6)
     ax = axes[0, 0]
     for gas in BOTH:
         series = data.slab("late", gas)
@@ -34,13 +32,11 @@ def collisions(data: Shear) -> Figure:
     ax.set_ylabel("s(t), s'(t)", color=COLOURS[0])
     ax.set_title(f"{SLAB}, from (3.5)", fontsize=10)
     legend(ax, {}, loc="lower right")
-    return found
 
 
-@PAPER.figure("fig02_slab_profiles")
-def profiles(data: Shear) -> Figure:
+@PAPER.figure("fig02_slab_profiles", 3, 2, 9.6, 9.6, sharex=True, sharey="row")
+def profiles(data: Shear, axes) -> None:
     """Fig. 2: profiles at five times, from both initial states."""
-    found, axes = figure(3, 2, 9.6, 9.6, sharex=True, sharey="row")
     for column, (start, equation) in enumerate(STARTS.items()):
         for ax, name in zip(axes[:, column], PROFILES, strict=True):
             for gas in BOTH:
@@ -57,13 +53,11 @@ def profiles(data: Shear) -> Figure:
     times["uniform shear with the same momentum"] = {"color": "black", "linestyle": ":"}
     axes[0, 0].legend(handles=legend_of(times), fontsize=8)
     legend(axes[1, 0], {})
-    return found
 
 
-@PAPER.figure("fig03_slab_approach")
-def approach(data: Shear) -> Figure:
+@PAPER.figure("fig03_slab_approach", 3, 1, 6.8, 8.6, sharex=True)
+def approach(data: Shear, axes) -> None:
     """Fig. 3: flow, density and temperature in the middle and at the top."""
-    found, axes = figure(3, 1, 6.8, 8.6, sharex=True)
     places = {"four central layers": CENTRE, "three top layers": TOP}
     for ax, (name, label) in zip(axes[:, 0], PROFILES.items(), strict=True):
         for colour, layers in zip(COLOURS, places.values(), strict=False):
@@ -76,34 +70,30 @@ def approach(data: Shear) -> Figure:
         ax.set_ylabel(label)
     legend(axes[1, 0], {n: {"color": c} for n, c in zip(places, COLOURS, strict=False)})
     axes[2, 0].set(xlabel=CLOCK, xlim=(0, 5))
-    return found
 
 
-@PAPER.figure("fig04_slab_transient")
-def transient(data: Shear) -> Figure:
+@PAPER.figure("fig04_slab_transient", 2, 1, 6.8, 7.0, sharex=True)
+def transient(data: Shear, axes) -> None:
     """Fig. 4: temperature and stresses of the whole slab, IHS and EHS."""
     curves = [(data.slab("late", gas), "mean_temperature", LINES[gas]) for gas in BOTH]
     found, entries = _averages(curves)
     legend(found.axes[1], entries, loc="upper right")
-    return found
 
 
-@PAPER.figure("fig09_initial_states")
-def starts(data: Shear) -> Figure:
+@PAPER.figure("fig09_initial_states", 2, 1, 6.8, 7.0, sharex=True)
+def starts(data: Shear, axes) -> None:
     """Fig. 9: IHS from the three initial states."""
     lines = dict(zip(STARTS, ("--", "-."), strict=True))
     curves = [(data.slab("late", "ihs", s), "mean_temperature", lines[s]) for s in STARTS]
-    found, entries = _averages([*curves, (flat(data), "temperature", "-")])
+    entries = _averages(axes, [*curves, (flat(data), "temperature", "-")])
     for start, line in lines.items():
         entries[f"slab from {STARTS[start]}"] = {"color": "0.3", "linestyle": line}
     entries["homogeneous (3.12)"] = {"color": "0.3"}
-    found.axes[1].legend(handles=legend_of(entries), fontsize=8, loc="upper right")
-    return found
+    axes[1, 0].legend(handles=legend_of(entries), fontsize=8, loc="upper right")
 
 
-def _averages(curves) -> tuple[Figure, dict]:
+def _averages(axes, curves) -> dict[str, dict]:
     """T/T0 above the stresses; `curves`: series, name of its temperature, line style."""
-    found, axes = figure(2, 1, 6.8, 7.0, sharex=True)
     top, bottom = axes[:, 0]
     for series, temperature, line in curves:
         clock = series["clock"].values
@@ -113,4 +103,4 @@ def _averages(curves) -> tuple[Figure, dict]:
     top.set(ylabel="T / T0", title=SLAB)
     bottom.set(xlabel=CLOCK, ylabel="reduced stress", xlim=(0, 60), ylim=(0, None))
     colours = zip(STRESSES.values(), COLOURS[1:], strict=False)
-    return found, {label: {"color": colour} for label, colour in colours}
+    return {label: {"color": colour} for label, colour in colours}

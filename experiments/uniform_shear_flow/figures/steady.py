@@ -1,7 +1,6 @@
 """Figures 14 to 18: steady states and velocity distributions; the convergence study."""
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from jdsmc import Estimate
 from jdsmc.scenarios.options import TIME_STEP
@@ -9,7 +8,7 @@ from jdsmc.theory import bgk_shear_flow
 
 from ...case import estimate
 from ...numbers import stack
-from ...style import COLOURS, OPEN, band, figure, legend_of
+from ...style import COLOURS, OPEN, band, legend_of
 from ..cases import FAST, LABELS, POINTS, SLOW
 from ..checks import OBSERVABLES, Runs
 from ..claims_distribution import bgk, equilibrium
@@ -31,9 +30,8 @@ LOOKS = {
 FINE = np.linspace(0.48, 0.97, 99)
 
 
-def _panels(data: Shear, labels: dict[str, str], height: float, modelled, x_name: str = ""):
+def _panels(data: Shear, axes, labels: dict[str, str], modelled, x_name: str = "") -> None:
     """Steady values against α, or against another of them; BGK dotted where it is modelled."""
-    found, axes = figure(len(labels), 1, 6.4, height, sharex=True)
     axes, model = axes[:, 0], bgk_shear_flow.steady_state(FINE)
     for ax, (name, label) in zip(axes, labels.items(), strict=True):
         sign = -1.0 if label == "-a3" else 1.0
@@ -48,33 +46,30 @@ def _panels(data: Shear, labels: dict[str, str], height: float, modelled, x_name
         ax.set_ylabel(label)
     axes[-1].set_xlabel("coefficient of restitution α")
     axes[0].legend(fontsize=8, title="error bars: 1 s.e.")
-    return found, axes
 
 
-@PAPER.figure("fig14_steady_stresses")
-def stresses(data: Shear) -> Figure:
+@PAPER.figure("fig14_steady_stresses", 4, 1, 6.4, 11.5, sharex=True)
+def stresses(data: Shear, axes) -> None:
     """Fig. 14: shear rate, shear stress, normal stress differences against α, BGK dotted."""
     labels = {"reduced_shear_rate": "a* = a τ_η", **STRESSES}
     labels["normal_stress_zy"] = "(P_zz - P_yy)/nT"
-    return _panels(data, labels, 11.5, labels)[0]
+    _panels(data, axes, labels, labels)
 
 
-@PAPER.figure("fig15_viscometric")
-def viscometric(data: Shear) -> Figure:
+@PAPER.figure("fig15_viscometric", 3, 1, 6.4, 9, sharex=True)
+def viscometric(data: Shear, axes) -> None:
     """Fig. 15: viscosity and viscometric functions against the steady shear rate, BGK dotted."""
     labels = {"reduced_viscosity": "η*", "first_viscometric": "-Ψ1", "second_viscometric": "Ψ2"}
-    found, axes = _panels(data, labels, 9, labels, "reduced_shear_rate")
-    axes[-1].set_xlabel("steady reduced shear rate a*_s = a τ_η")
-    return found
+    _panels(data, axes, labels, labels, "reduced_shear_rate")
+    axes[-1, 0].set_xlabel("steady reduced shear rate a*_s = a τ_η")
 
 
-@PAPER.figure("fig16_steady_cumulants")
-def cumulants(data: Shear) -> Figure:
+@PAPER.figure("fig16_steady_cumulants", 3, 1, 6.4, 9, sharex=True)
+def cumulants(data: Shear, axes) -> None:
     """Fig. 16: relative speeds and cumulants against α; BGK dotted but in the first panel."""
     labels = {"relative_speed_cubed": "⟨V12³⟩/⟨V12³⟩0", "a2": "a2", "a3": "-a3"}
-    found, axes = _panels(data, labels, 9, ("a2", "a3"))
-    axes[1].legend(handles=legend_of({"BGK": BGK}), fontsize=8)
-    return found
+    _panels(data, axes, labels, ("a2", "a3"))
+    axes[1, 0].legend(handles=legend_of({"BGK": BGK}), fontsize=8)
 
 
 DISTRIBUTIONS = {
@@ -87,20 +82,19 @@ LARGEST_ERROR = 0.7
 """Bins with a larger relative error are not drawn."""
 
 
-@PAPER.figure("fig17_distributions")
-def linear(data: Shear) -> Figure:
+@PAPER.figure("fig17_distributions", 3, 2, 10, 10.5)
+def linear(data: Shear, axes) -> None:
     """Fig. 17: thermal velocities, linear scale."""
-    return _distributions(data, 3.0, ylim=(0, None))
+    _distributions(data, axes, 3.0, ylim=(0, None))
 
 
-@PAPER.figure("fig18_distributions_log")
-def logarithmic(data: Shear) -> Figure:
+@PAPER.figure("fig18_distributions_log", 3, 2, 10, 10.5)
+def logarithmic(data: Shear, axes) -> None:
     """Fig. 18: tails, logarithmic scale, averaged over both shear rates."""
-    return _distributions(data, 7.0, yscale="log", ylim=(1e-7, 2))
+    _distributions(data, axes, 7.0, yscale="log", ylim=(1e-7, 2))
 
 
-def _distributions(data: Shear, reach: float, **options) -> Figure:
-    found, axes = figure(3, 2, 10, 10.5)
+def _distributions(data: Shear, axes, reach: float, **options) -> None:
     for column, alpha in enumerate((0.9, 0.5)):
         for row, (name, (axis, xlabel, ylabel)) in enumerate(DISTRIBUTIONS.items()):
             ax, first = axes[row, column], 0.0 if name == "speed" else -reach
@@ -118,13 +112,11 @@ def _distributions(data: Shear, reach: float, **options) -> Figure:
     models = {"BGK": {"color": "black", "linestyle": "-."}}
     models["local equilibrium"] = {"color": "0.5", "linestyle": ":"}
     legend(axes[2, 0], models, coloured=True)
-    return found
 
 
-@PAPER.figure("convergence")
-def convergence(data: Shear) -> Figure:
+@PAPER.figure("convergence", 6, 2, 10, 14.4, sharex="col")
+def convergence(data: Shear, axes) -> None:
     """Deviation from the limit in percent, against dt² (left) and 1/N (right); fits as lines."""
-    found, axes = figure(len(OBSERVABLES), 2, 10, 2.4 * len(OBSERVABLES), sharex="col")
     for place, (gas, alpha) in enumerate(POINTS):
         runs = Runs(data, gas, alpha)
         look = {"fmt": "o", "ms": 4, "capsize": 2, "color": COLOURS[place]}
@@ -140,7 +132,6 @@ def convergence(data: Shear) -> Figure:
     axes[0, 0].set_title(f"N = {runs.usual}")
     axes[0, 1].set_title(f"time step asked: {TIME_STEP} (default)")
     axes[0, 0].legend(fontsize=7, ncols=2, title="error bars: 1 s.e.; lines: fit", title_fontsize=7)
-    return found
 
 
 def _deviations(left, right, runs: Runs, name: str, place: int, look: dict) -> None:
