@@ -1,7 +1,7 @@
 """A case: a scene and the options of its run, obtained from the store or simulated."""
 
-import inspect
 import json
+import sys
 import zlib
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
@@ -14,7 +14,6 @@ import xarray as xr
 
 from jdsmc import Estimate, Result, run, transport
 from jdsmc.running.provenance import specification
-from jdsmc.running.run import run as run_function
 from jdsmc.scenarios.navier_stokes import NavierStokes
 
 from . import store
@@ -53,8 +52,9 @@ class Case:
     def sources(self) -> list[Path]:
         """Modules that the simulation starts from."""
         kicks = isinstance(self.scene, NavierStokes)
-        starts = (type(self.scene), type(self.scene.gas), transport if kicks else run_function)
-        return [Path(inspect.getfile(one)) for one in starts]
+        start = transport.navier_stokes if kicks else run
+        modules = [one.__module__ for one in (type(self.scene), type(self.scene.gas), start)]
+        return [Path(str(sys.modules[name].__file__)) for name in modules]
 
     def simulate(self) -> Result:
         """Run it."""

@@ -2,9 +2,9 @@
 
 The folder of a paper holds what it says (`claims.txt`), how much to compute ("small", "full", and
 "tiny" for tests: `sizes.toml`) and the page that is made (`table.template.md`), in which
-`{Heading}` stands for the claims under a heading and `{name}` for a table. What decides the claim `key`, and
-what makes the table `name`, are functions of these names in the modules of a paper (`Paper.take`);
-figures are registered by a decorator.
+`{Heading}` stands for the claims under a heading and `{name}` for a table. What decides the claim
+`key`, and what makes the table `name`, are functions of these names in the modules of a paper
+(`Paper.take`); figures are registered by a decorator.
 """
 
 import platform

@@ -4,10 +4,9 @@ import ast
 import hashlib
 import json
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
-from typing import Protocol
 
 import jdsmc
 from jdsmc import Result, load
@@ -18,30 +17,11 @@ OUTSIDE = ("views", "cli", "results", "check.py", "running/progress.py", "runnin
 """Sources that decide no number; nor do those that only they import."""
 
 
-class Request(Protocol):
-    """What can be stored: its name, what decides its result, its sources, how to make it."""
-
-    @property
-    def name(self) -> str:
-        """Name of the file, without suffix."""
-        ...
-
-    def request(self) -> str:
-        """Everything that decides the result but the program, as text to compare with a file's."""
-        ...
-
-    def sources(self) -> Iterable[Path]:
-        """Modules that the simulation starts from."""
-        ...
-
-    def simulate(self) -> Result:
-        """Run it."""
-        ...
-
-
-def obtain(case: Request, folder: Path, fresh: bool = False) -> Result:
+def obtain(case, folder: Path, fresh: bool = False) -> Result:
     """The result of a case: from FOLDER/<name>.h5 if made with the same request and program.
 
+    A case has a `name`; `request()`, all that decides the result but the program, as text;
+    `sources()`, modules that the simulation starts from; and `simulate()`.
     Raises KeyboardInterrupt if the run was interrupted (nothing is saved then), and what `simulate`
     raises.
     """

@@ -55,16 +55,6 @@ def sweep_name(combination: Combination) -> str:
 BEYOND_NAME = f"{sweep_name(BEYOND)}_beyond"
 
 
-def variant_name(variant: str) -> str:
-    """Name of a sweep of the error budget."""
-    return "budget_" + variant.replace("/", "_").replace(" ", "_")
-
-
-def maxwell_name(length: float) -> str:
-    """Name of a sweep with Maxwell molecules."""
-    return f"molecules_{length:g}"
-
-
 def sweeps(size) -> dict[Combination, tuple[float, ...]]:
     """g of every combination."""
     return {c: tuple(g) for c, g in zip(COMBINATIONS, size.gravity, strict=True)}
@@ -89,9 +79,11 @@ def cases(size) -> list[Case]:
         add(BEYOND_NAME, BEYOND, FIGURE_6[1:], lasting(BEYOND))
     for variant, changes in size.variants.items():
         options = {**size.gas, "duration": size.duration, **changes}
-        add(variant_name(variant), EXAMPLE, STUDY_GRAVITY, options)
+        add(
+            f"budget_{variant.replace('/', '_').replace(' ', '_')}", EXAMPLE, STUDY_GRAVITY, options
+        )
     for length, gravity, *amount in size.maxwell:
         options = dict(zip(("n_particles", "n_realizations", "duration"), amount, strict=True))
         walls = Combination(MAXWELL_COLD, MAXWELL_WALL)
-        add(maxwell_name(length), walls, gravity, options, MaxwellMolecules(), length)
+        add(f"molecules_{length:g}", walls, gravity, options, MaxwellMolecules(), length)
     return found

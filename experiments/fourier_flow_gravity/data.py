@@ -12,7 +12,7 @@ from jdsmc.results.gravity_effect import linear_response, points
 from ..case import Measurements
 from ..paper import Paper
 from . import cases
-from .cases import BEYOND, EXAMPLE, Combination, maxwell_name, sweep_name, variant_name
+from .cases import BEYOND, EXAMPLE, Combination, sweep_name
 
 
 class Fourier(Measurements):
@@ -52,13 +52,14 @@ class Fourier(Measurements):
     @property
     def variants(self) -> dict[str, Result]:
         """Sweeps of the error budget, the one it starts from first."""
-        found = {"default": self.sweep(EXAMPLE)}
-        return found | {v: self.results[variant_name(v)] for v in self.size.variants}
+        others = [result for name, result in self.results.items() if name.startswith("budget")]
+        names = ("default", *self.size.variants)
+        return dict(zip(names, (self.sweep(EXAMPLE), *others), strict=True))
 
     @property
     def molecules(self) -> dict[float, Result]:
         """Sweeps with Maxwell molecules by the length of the slab."""
-        return {length: self.results[maxwell_name(length)] for length, *_ in self.size.maxwell}
+        return {length: self.results[f"molecules_{length:g}"] for length, *_ in self.size.maxwell}
 
 
 def _at(data: xr.Dataset, gravity: float) -> xr.Dataset:

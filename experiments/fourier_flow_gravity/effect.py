@@ -126,28 +126,17 @@ def _cell(combination: Combination, name: str, paper: dict, k: int, ours: Estima
     return cell._replace(difference=ours - Estimate(cell.paper, error))
 
 
-class Summary(NamedTuple):
-    """All rows of one column of a table together.
+def summary(data: Fourier, combination: Combination, name: str) -> tuple[str, Estimate, float]:
+    """All rows of one column of a table together: how many agree, the mean difference, χ²/rows.
 
-    `offset`: mean of ours minus the paper's, and its error if the rows were independent;
-    `chi2`: mean of the squared distances.
+    The difference is ours minus the paper's, with its error if the rows were independent.
     """
-
-    agreeing: int
-    count: int
-    offset: Estimate
-    chi2: float
-
-
-def summary(data: Fourier, combination: Combination, name: str) -> Summary:
-    """One column of a table."""
     found = [row.cells[name].difference for row in rows(data, combination)]
-    pairs = np.array([(one.value, one.error) for one in found if one is not None])
-    value, error = pairs.T
+    value, error = np.array([(one.value, one.error) for one in found if one is not None]).T
     distance = value / error
     offset = Estimate(np.mean(value), np.sqrt(np.sum(error**2)) / len(error))
-    agreeing = int(np.sum(np.abs(distance) <= AGREEMENT))
-    return Summary(agreeing, len(value), offset, float(np.mean(distance**2)))
+    agreeing = f"{np.sum(np.abs(distance) <= AGREEMENT)} of {len(value)}"
+    return agreeing, offset, float(np.mean(distance**2))
 
 
 def narrow_response(data: Fourier, combination: Combination) -> Estimate | str:

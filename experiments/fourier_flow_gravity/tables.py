@@ -28,10 +28,9 @@ def summary(data: Fourier) -> list[str]:
     rows = []
     for c in COMBINATIONS:
         for name, symbol in effect.SYMBOLS.items():
-            found = effect.summary(data, c, name)
-            agree = f"{found.agreeing} of {found.count}"
+            agree, offset, misfit = effect.summary(data, c, name)
             rough = f"{effect.scatter(c, name):.4f}"
-            rows.append([c.label, symbol, rough, agree, found.offset, f"{found.chi2:.1f}"])
+            rows.append([c.label, symbol, rough, agree, offset, f"{misfit:.1f}"])
     header = ["table", "column", "scatter of the paper", "agree", "mean of ours - paper"]
     return [note, "", *grid([*header, "χ²/rows"], rows)]
 

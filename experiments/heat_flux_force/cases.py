@@ -33,31 +33,6 @@ APPROACH = 25.0
 """Duration of the transients (τ0); the paper finds the steady state after about 10."""
 
 
-def steady_name(strength: float) -> str:
-    """Name of the steady states at a field."""
-    return f"force_{strength:g}"
-
-
-def transient_name(restitution: float, strength: float) -> str:
-    """Name of an approach to the steady state."""
-    return f"transient_{restitution:g}_{strength:g}"
-
-
-def step_name(scheme: str, step: float) -> str:
-    """Name of a scheme at a time step."""
-    return f"step_{scheme}_{step:g}"
-
-
-def number_name(n_particles: int) -> str:
-    """Name of a particle number."""
-    return f"number_{n_particles}"
-
-
-def kick_name(kick: float, step: float) -> str:
-    """Name of the impulse response at a kick and a time step."""
-    return f"kick_{kick:g}_dt{step:g}"
-
-
 def studies(size) -> dict[str, list[Case]]:
     """Every study of a size by its name, the cheapest first: equal cases, saved one by one."""
     found: dict[str, list[Case]] = {}
@@ -69,20 +44,20 @@ def studies(size) -> dict[str, list[Case]]:
     add("cooling", HomogeneousCooling(gas), long, size.cooling)
     for kick, step, parts in size.kicks:
         options = {**size.kick_options, "time_step": step}
-        add(kick_name(kick, step), NavierStokes(gas, kick, size.followed), options, parts)
+        add(f"kick_{kick:g}_dt{step:g}", NavierStokes(gas, kick, size.followed), options, parts)
     for alpha, strength, parts in size.transients:
         options = {**size.gas, "duration": APPROACH, "steps_per_record": 4}
         scene = HeatFluxForce(_gas([alpha]), strength)
-        add(transient_name(alpha, strength), scene, options, parts, steady=False)
+        add(f"transient_{alpha:g}_{strength:g}", scene, options, parts, steady=False)
     for scheme, step, parts in size.steps:
         options = {**long, "time_step": step, "steps_per_record": max(1, round(0.8 / step))}
-        add(step_name(scheme, step), _studied(scheme), options, parts)
+        add(f"step_{scheme}_{step:g}", _studied(scheme), options, parts)
     for number in size.numbers:
         realizations = size.gas["n_particles"] * size.gas["n_realizations"] // number
         options = {**long, "n_particles": number, "n_realizations": realizations}
-        add(number_name(number), _studied("exact"), options, 2)
+        add(f"number_{number}", _studied("exact"), options, 2)
     for strength, parts in size.fields:
-        add(steady_name(strength), HeatFluxForce(gas, strength), long, parts)
+        add(f"force_{strength:g}", HeatFluxForce(gas, strength), long, parts)
     return found
 
 

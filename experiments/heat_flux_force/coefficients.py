@@ -8,8 +8,8 @@ from jdsmc.theory.transport import first_sonine, modified_first_sonine
 from jdsmc.units import CONVERGED_ORDER
 
 from ..numbers import Even
-from .cases import KICK_STEP, kick_name
-from .data import Heat
+from .cases import KICK_STEP
+from .data import Heat, Pool
 from .limits import CONDUCTIVITY, limit
 
 NAMES = {
@@ -41,15 +41,20 @@ def kick_strengths(data: Heat) -> list[float]:
     return sorted(kick for kick, step, _ in data.size.kicks if step == KICK_STEP)
 
 
+def kicked(data: Heat, kick: float, step: float = KICK_STEP) -> Pool:
+    """The impulse response at a kick and a time step."""
+    return data[f"kick_{kick:g}_dt{step:g}"]
+
+
 def coefficient(data: Heat, name: str, restitution: float) -> Coefficient:
     """One coefficient with its checks."""
     strengths = kick_strengths(data)
-    pools = [data[kick_name(kick, KICK_STEP)] for kick in strengths]
+    pools = [kicked(data, kick) for kick in strengths]
     kicks = [pool.value(name, restitution) for pool in pools]
     fitted = Even(strengths, kicks, (1,))
     by_step, short = None, min(step for _, step, _ in data.size.kicks)
     if short < KICK_STEP:
-        other = data[kick_name(strengths[0], short)]
+        other = kicked(data, strengths[0], short)
         by_step = kicks[0] - other.value(name, restitution)
     models = first_sonine(restitution), modified_first_sonine(restitution)
     return Coefficient(

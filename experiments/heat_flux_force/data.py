@@ -9,7 +9,7 @@ from jdsmc import Estimate, Result
 from ..case import Case, Measurements, at, estimate, steady
 from ..numbers import Even, mean, stack
 from ..paper import Paper
-from .cases import steady_name, studies, transient_name
+from .cases import studies
 
 
 class Pool:
@@ -94,11 +94,11 @@ class Heat(Measurements):
 
     def steady(self, strength: float) -> Pool:
         """The steady states at a field."""
-        return self[steady_name(strength)]
+        return self[f"force_{strength:g}"]
 
     def transient(self, restitution: float, strength: float) -> Pool:
         """An approach to the steady state."""
-        return self[transient_name(restitution, strength)]
+        return self[f"transient_{restitution:g}_{strength:g}"]
 
     def over_restitutions(self, value) -> Estimate:
         """A function of the restitution as an array."""

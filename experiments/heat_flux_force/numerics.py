@@ -17,17 +17,13 @@ from jdsmc.scenarios.navier_stokes import GAP, WARM_UP
 from ..numbers import Even
 from .cases import (
     DEFAULT_STEP,
-    KICK_STEP,
     PAPER_FIELD,
     PAPER_PARTICLES,
     PAPER_REALIZATIONS,
     PAPER_STEP,
     STUDY_RESTITUTION,
-    kick_name,
-    number_name,
-    step_name,
 )
-from .coefficients import coefficient, kick_strengths
+from .coefficients import coefficient, kick_strengths, kicked
 from .data import Heat, Pool
 from .limits import CONDUCTIVITY, limit
 
@@ -68,7 +64,7 @@ class Scheme(NamedTuple):
 def scheme(data: Heat, name: str) -> Scheme:
     """What was measured with a scheme."""
     asked = tuple(sorted(step for kind, step, _ in data.size.steps if kind == name))
-    pools = [data[step_name(name, step)] for step in asked]
+    pools = [data[f"step_{name}_{step:g}"] for step in asked]
     made = [float(studied(pool, "time_step").value) for pool in pools]
     values = [studied(pool) for pool in pools]
     return Scheme(asked, made, values, Even(made, values, (POWERS[name],)))
@@ -80,9 +76,9 @@ def numbers(data: Heat) -> list[tuple[int, Estimate, Estimate]]:
     The last is how far that number is from N -> ∞, relative, if the distance goes as 1/N.
     """
     usual = data.size.gas["n_particles"]
-    value, found = studied(data[step_name("exact", DEFAULT_STEP)]), []
+    value, found = studied(data[f"step_exact_{DEFAULT_STEP:g}"]), []
     for number in data.size.numbers:
-        few = studied(data[number_name(number)])
+        few = studied(data[f"number_{number}"])
         found.append((number, few, (few / value - 1.0) / (usual / number - 1.0)))
     return found
 
@@ -147,7 +143,7 @@ def kicks(data: Heat) -> tuple[float, float]:
     Bias of the kick and statistical error in quadrature. The work is that of the sample and of its
     six copies, which give κ, μ and η too.
     """
-    pool = data[kick_name(kick_strengths(data)[0], KICK_STEP)]
+    pool = kicked(data, kick_strengths(data)[0])
     value, error = studied(pool)
     bias = coefficient(data, CONDUCTIVITY.name, STUDY_RESTITUTION).excess.value
     time = WARM_UP + data.size.kick_options["n_kicks"] * (GAP + COPIES * data.size.followed)
