@@ -42,14 +42,14 @@ class Paper:
         text = self.folder / "claims.txt"
         self.claims = claims.read(text) if text.exists() else {}
         self.measures: dict[str, Callable[[Any], Any]] = {}
-        self.tables: dict[str, Callable[[Any], Sequence[str]]] = {"simulations": simulations}
+        self.tables: dict[str, Callable[[Any], Sequence[str] | str]] = {"simulations": simulations}
         self.figures: dict[str, Callable[[Any], Figure]] = {}
 
     def take(self, claims: Sequence[ModuleType], tables: Sequence[ModuleType]) -> "Paper":
         """Functions of the measurements in these modules decide the claims of their names.
 
         Such a function returns a `Finding` for a sentence, and for a number an `Estimate`, a `Span`
-        or a number. Those of `tables` make the lines of the tables of their names.
+        or a number. Those of `tables` make what stands for their names: lines, or a text.
         """
         for module in claims:
             self.measures = _own(module) | self.measures
@@ -94,11 +94,13 @@ class Paper:
         def lines(found: re.Match) -> str:
             name = found[1]
             if name in self.claims:
-                return "\n".join(claims.table(self.verdicts(data, name)))
-            return "\n".join(self.tables[name](data))
+                made = claims.table(self.verdicts(data, name))
+            else:
+                made = self.tables[name](data)
+            return made if isinstance(made, str) else "\n".join(made)
 
         text = self.template.replace("{size}", size).replace("{provenance}", self.made_by(data))
-        return re.sub(r"^\{(.+)\}$", lines, text, flags=re.MULTILINE)
+        return re.sub(r"\{([^{}\n]+)\}", lines, text)
 
     def made_by(self, data: Measurements) -> str:
         """The command, the versions, the time it took."""

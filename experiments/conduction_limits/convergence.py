@@ -100,11 +100,10 @@ def _fluxes(result) -> tuple[Estimate, Estimate]:
 PAPER = Paper("conduction_limits.convergence", Fluxes, "convergence")
 
 
-def at_the_defaults(data: Fluxes) -> list[str]:
+def at_the_defaults(data: Fluxes) -> str:
     """The fluxes behind all percentages."""
     walls, sampled = data.fluxes[0]
-    law = f"{100 * data.law[0]:+.3f}%"
-    return [f"At the defaults: {walls} from the walls, {sampled} sampled; law: {law}."]
+    return f"{walls} from the walls, {sampled} sampled; law: {100 * data.law[0]:+.3f}%"
 
 
 def settings(data: Fluxes) -> list[str]:

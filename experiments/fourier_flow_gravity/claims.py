@@ -15,14 +15,7 @@ from ..case import estimate
 from ..claims import Finding, every, positive
 from ..numbers import Span, over_parts
 from . import balance, profiles
-from .cases import (
-    BEYOND,
-    COMBINATIONS,
-    EXAMPLE,
-    EXAMPLE_GRAVITY,
-    FIGURE_6,
-    Combination,
-)
+from .cases import BEYOND, COMBINATIONS, EXAMPLE, EXAMPLE_GRAVITY, FIGURE_6, Combination
 from .data import PAPER, Fourier
 
 

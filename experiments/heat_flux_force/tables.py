@@ -10,7 +10,7 @@ from jdsmc.units import CONVERGED_ORDER
 from ..markdown import grid
 from ..numbers import within
 from . import coefficients, numerics
-from .cases import DEFAULT_STEP, PAPER_FIELD, STUDY_FIELD, STUDY_RESTITUTION
+from .cases import DEFAULT_STEP, PAPER_FIELD
 from .data import Heat, Pool
 from .distribution import share_limit
 from .limits import CONDUCTIVITY, MARGINAL, SONINE, at_field, limit, used
@@ -43,10 +43,7 @@ def elastic(data: Heat) -> list[str]:
     for quantity in (*SONINE, *MARGINAL):
         known = float(exact[(quantity.order or 1) - 1])
         cells: list = [quantity.label, f"{known:.5f}"]
-        for value in (
-            limit(data, quantity, 1.0).limit,
-            at_field(data, quantity, 1.0, PAPER_FIELD),
-        ):
+        for value in (limit(data, quantity, 1.0).limit, at_field(data, quantity, 1.0, PAPER_FIELD)):
             cells += [value, f"{value.distance(known):+.1f}"]
         rows.append(cells)
     header = ["quantity", "exact", "ε* → 0", "off/σ", f"ε* = {PAPER_FIELD:g}", "off/σ"]
@@ -118,27 +115,28 @@ def cooling(data: Heat) -> list[str]:
     return grid([*header, "largest error"], rows)
 
 
+def step_is_short(data: Heat) -> str:
+    """Whether the default step is short enough."""
+    deviation = numerics.scheme(data, "exact").deviation(DEFAULT_STEP)
+    return within(deviation, numerics.TOLERANCE)
+
+
+def schemes_apart(data: Heat) -> str:
+    """The limits of both schemes, in errors."""
+    one, other = (numerics.scheme(data, name).fit.limit for name in ("exact", "paper"))
+    return f"{one.distance(other):.1f}"
+
+
 def time_steps(data: Heat) -> list[str]:
-    """κ' against the time step in both schemes, and whether the default is short enough."""
+    """κ' against the time step in both schemes."""
     schemes = {name: numerics.scheme(data, name) for name in ("exact", "paper")}
-    exact, paper = schemes.values()
-    verdict = within(exact.deviation(DEFAULT_STEP), numerics.TOLERANCE)
-    lines = [
-        f"α = {STUDY_RESTITUTION:g}, ε* = {STUDY_FIELD:g}. The exact flow with symmetric splitting "
-        "is fitted with dt², the paper's explicit step (4.1) with dt. The step asked for is "
-        "shortened where particles would be hit too often. κ' at the default step "
-        f"{DEFAULT_STEP:g} within {100 * numerics.TOLERANCE:g}% of dt → 0, at two standard errors: "
-        f"{verdict}. The limits of the schemes differ by "
-        f"{exact.fit.limit.distance(paper.fit.limit):.1f} errors.",
-        "",
-    ]
     rows = [
         [name, f"{asked:g}", f"{made:.4f}", value, found.fit.limit, percent(found.deviation(asked))]
         for name, found in schemes.items()
         for asked, made, value in zip(found.asked, found.made, found.values, strict=True)
     ]
     header = ["scheme", "dt asked", "dt made (τ)", "κ'/κ0", "dt → 0", "off by"]
-    return lines + grid(header, rows)
+    return grid(header, rows)
 
 
 def particle_numbers(data: Heat) -> list[str]:

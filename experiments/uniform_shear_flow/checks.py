@@ -85,15 +85,6 @@ PAPER_LAYERS, LAYER_PARTICLES = 50, 200
 """The paper's inhomogeneous runs: N = 1e4 in M = 50 layers (section IV A)."""
 
 
-def layer_temperature(homogeneous: Estimate) -> Estimate:
-    """T_s expected from the candidates of eq. (4.13a), N_I² instead of N_I(N_I - 1) a layer.
-
-    With a fluctuating N_I (binomial, mean n) the collision rate is too high by 1 + (1 - 1/M)/n,
-    and T_s ∝ (a τ0)² falls with its square.
-    """
-    return homogeneous / (1.0 + (1.0 - 1.0 / PAPER_LAYERS) / LAYER_PARTICLES) ** 2
-
-
 OBSERVABLES = {
     "temperature": "T_s",
     "shear_stress": "-P_xy/nT",

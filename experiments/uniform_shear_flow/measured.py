@@ -11,7 +11,7 @@ from jdsmc.measure.observables import maxwell_speed_classes
 from jdsmc.units import VISCOSITY_TIME
 
 from ..case import estimate
-from ..numbers import Span
+from ..numbers import Fit, Span, each
 from .cases import BOTH, FAST, SLOW
 from .data import PAPER, Shear
 
@@ -214,27 +214,30 @@ class Tail(NamedTuple):
 
 def tail(data: Shear, gas: str, restitution: float) -> Tail:
     """Fits to the tail of F, averaged over the shear rates."""
-    c, log, error = _log_tail(data, gas, restitution)
-    start = (log[0] + 2.0 * c[0], 2.0, 1.0)
-    bounds = ([-np.inf, 0.0, 0.2], [np.inf, np.inf, 4.0])
+    c, log = _log_tail(data, gas, restitution)
+    start = (log.value[0] + 2.0 * c[0], 2.0, 1.0)
     best, covariance = curve_fit(
         lambda c, constant, factor, power: constant - factor * c**power,
-        *(c, log, start, error),
+        *(c, log.value, start, log.error),
         absolute_sigma=True,
-        bounds=bounds,
+        bounds=([-np.inf, 0.0, 0.2], [np.inf, np.inf, 4.0]),
         maxfev=20_000,
     )
-    middle = 0.5 * (c[0] + c[-1])
+
+    def line(part, power: int) -> Fit:
+        return Fit(np.stack([np.ones(len(c[part])), -(c[part] ** power)], axis=1), each(log[part]))
+
+    halves = (c < 0.5 * (c[0] + c[-1]), c >= 0.5 * (c[0] + c[-1]))
     return Tail(
         Estimate(float(best[2]), float(np.sqrt(covariance[2, 2]))),
-        (_line(c, log, error)[1], _line(c**2, log, error)[1]),
-        tuple(_line(c[part], log[part], error[part])[0] for part in (c < middle, c >= middle)),
+        (line(slice(None), 1).misfit, line(slice(None), 2).misfit),
+        tuple(line(half, 1).terms[1] for half in halves),
         *(float(c[0]), float(c[-1])),
     )
 
 
-def _log_tail(data: Shear, gas: str, restitution: float):
-    """C, ln F and its standard error, up to the first bin that is too uncertain."""
+def _log_tail(data: Shear, gas: str, restitution: float) -> tuple[np.ndarray, Estimate]:
+    """C and ln F, up to the first bin that is too uncertain."""
     found = data.distribution(gas, restitution)
     c, density = found["speed_bin"].values, found["speed"].values
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -243,15 +246,7 @@ def _log_tail(data: Shear, gas: str, restitution: float):
     inside = slice(np.searchsorted(c, TAIL), uncertain[0] if len(uncertain) else len(c))
     floor = np.median(relative[inside])  # a bin whose few realizations agree by chance
     error = np.maximum(relative[inside], 0.1 * floor)
-    return c[inside], np.log(density[inside]), error
-
-
-def _line(x, y, error) -> tuple[Estimate, float]:
-    """Minus the slope of a weighted straight line, and χ²/ν."""
-    coefficients, covariance = np.polyfit(x, y, 1, w=1.0 / error, cov="unscaled")
-    score = (y - np.polyval(coefficients, x)) / error
-    misfit = float(np.sum(score**2) / max(1, len(y) - 2))
-    return Estimate(float(-coefficients[0]), float(np.sqrt(covariance[0, 0]))), misfit
+    return c[inside], Estimate(np.log(density[inside]), error)
 
 
 def newtonian_ihs(alpha: float) -> float:

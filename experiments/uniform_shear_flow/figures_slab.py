@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from ...case import estimate
-from ...style import COLOURS, band, legend_of
-from ..cases import BOTH, FAST, LENGTH, SLAB_RESTITUTION, STARTS
-from ..claims_slab import PROFILES, SHIFT, flat
-from ..data import CENTRE, HEIGHT, PAPER, TOP, Shear, beta, profile
-from ..slab import TIMES, ratio_curve
-from .common import CLOCK, LINES, STRESSES, legend
+from ..case import estimate
+from ..style import COLOURS, band, legend_of
+from .cases import BOTH, FAST, LENGTH, SLAB_RESTITUTION, STARTS
+from .claims_slab import PROFILES, SHIFT, flat
+from .data import CENTRE, HEIGHT, PAPER, TOP, Shear, beta, profile
+from .figures import CLOCK, LINES, STRESSES, legend
+from .slab import TIMES, ratio_curve
 
 SLAB = f"α = {SLAB_RESTITUTION}, a τ0 = {FAST:g}, L = {LENGTH} λ0"
 
@@ -76,8 +76,7 @@ def approach(data: Shear, axes) -> None:
 def transient(data: Shear, axes) -> None:
     """Fig. 4: temperature and stresses of the whole slab, IHS and EHS."""
     curves = [(data.slab("late", gas), "mean_temperature", LINES[gas]) for gas in BOTH]
-    found, entries = _averages(curves)
-    legend(found.axes[1], entries, loc="upper right")
+    legend(axes[1, 0], _averages(axes, curves), loc="upper right")
 
 
 @PAPER.figure("fig09_initial_states", 2, 1, 6.8, 7.0, sharex=True)
