@@ -34,11 +34,11 @@ class Claim(NamedTuple):
 class Finding(NamedTuple):
     """What was measured, in words and numbers, and whether it bears a sentence out.
 
-    `holds` is None if the errors leave it open.
+    `holds` is true or false, or None if the errors leave it open.
     """
 
     measured: str
-    holds: bool | None
+    holds: Any
 
 
 class Verdict(NamedTuple):

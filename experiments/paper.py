@@ -142,8 +142,10 @@ def simulations(data: Measurements) -> list[str]:
         cells = ["", "", ""]
         if result.is_steady:
             start = root["steady_from_time"].values
-            spent = result.series["collisions"].values[..., -1] - root["steady_from_collisions"]
-            cells = [_range(start, ".0f"), _range(spent.values, ".0f")]
+            spent = (
+                result.series["collisions"].values[..., -1] - root["steady_from_collisions"].values
+            )
+            cells = [_range(start, ".0f"), _range(spent, ".0f")]
             cells += [_range(root["time_step"].values, ".3f") if "time_step" in root else ""]
         seconds = f"{float(attrs['seconds']):.0f}"
         rows.append([name, size, f"{time.max():.4g}", *cells, seconds, attrs["stopped"]])

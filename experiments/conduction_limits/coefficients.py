@@ -13,6 +13,7 @@ molecules, whose conductivity is known exactly: 1.
 
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -52,9 +53,9 @@ COLUMNS = {
 
 def measure(size, folder: Path, fresh: bool) -> Measurements:
     """Each gas between walls at each of the temperatures `COLD`."""
-    cases = []
+    cases, layers = [], round(size.per_length * LENGTH)
     for name, (gas, *_) in GASES.items():
-        scene = FourierFlow(gas, COLD, length=LENGTH, layers=round(size.per_length * LENGTH))
+        scene = FourierFlow(gas=gas, cold_temperature=COLD, length=LENGTH, layers=layers)
         cases.append(Case(name.replace(" ", "_"), scene, {"steps_per_record": 8, **size.options}))
     return Measurements(size, cases, folder, fresh)
 
@@ -65,7 +66,8 @@ PAPER = Paper("conduction_limits", measure)
 def coefficients(result: Result) -> dict[str, Estimate]:
     """Every coefficient and the mean ln T gradient, arrays over the wall temperatures."""
     data = result.to_xarray()["realizations"].to_dataset()
-    exponent = 1.0 - 0.5 * result.scene().gas.speed_exponent()
+    scene: Any = result.scene()
+    exponent = 1.0 - 0.5 * scene.gas.speed_exponent()
     share = data["z"].values / LENGTH
     bulk = (share > BULK[0]) & (share < BULK[1])
     walls = ("mean_heat_flux", "heat_flux_cold_wall", "heat_flux_hot_wall")

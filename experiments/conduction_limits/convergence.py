@@ -61,7 +61,8 @@ class Fluxes(Measurements):
     def __init__(self, size, folder: Path, fresh: bool):
         cases = []
         for number, s in enumerate(SETTINGS):
-            scene = FourierFlow(InelasticHardSpheres(1.0), COLD, length=LENGTH, layers=s.layers)
+            slab = {"cold_temperature": COLD, "length": LENGTH, "layers": s.layers}
+            scene = FourierFlow(gas=InelasticHardSpheres(1.0), **slab)
             particles = min(s.particles, size.study_particles // 8)
             options = {"n_particles": particles, "time_step": s.time_step}
             options |= {"n_realizations": size.study_particles // particles}

@@ -4,7 +4,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from jdsmc import InelasticHardSpheres, MaxwellMolecules
+from jdsmc import AbstractGas, InelasticHardSpheres, MaxwellMolecules
 from jdsmc.scenarios import FourierFlow
 
 from ..case import Case
@@ -64,10 +64,17 @@ def cases(size) -> list[Case]:
     """Every simulation of a size."""
     found, spheres = [], InelasticHardSpheres(1.0)
 
-    def add(name, combination, gravity, options, gas=spheres, length=size.length):
+    def add(name, combination, gravity, options, gas: AbstractGas = spheres, length=size.length):
         layers = options.pop("layers", round(size.per_length * length))
-        state = gas, combination.cold, np.array(gravity), length, combination.wall, layers
-        found.append(Case(name, FourierFlow(*state), {"steps_per_record": 8, **options}))
+        scene = FourierFlow(
+            gas=gas,
+            cold_temperature=combination.cold,
+            gravity=np.array(gravity),
+            length=length,
+            wall=combination.wall,
+            layers=layers,
+        )
+        found.append(Case(name, scene, {"steps_per_record": 8, **options}))
 
     def lasting(combination):
         factor = size.slower if combination.cold == BEYOND.cold else 1.0

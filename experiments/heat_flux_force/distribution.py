@@ -117,4 +117,4 @@ def approach(data: Heat, quantity: Quantity, restitution: float, strength: float
         return np.array([1.0 / rate, *reach])
 
     found = over_parts(values, fitted)
-    return Approach(found[0], Span(*map(float, found.value[1:]), "within 2% [5% to 1%]"))
+    return Approach(found[0], Span(*map(float, found.value[1:]), label="within 2% [5% to 1%]"))

@@ -83,7 +83,8 @@ def slab_cases(size) -> list[Case]:
     found = []
 
     def add(stage: str, gas: str, start: Start, options: dict, steady: bool) -> None:
-        slab = ShearedSlab(GASES[gas](SLAB_RESTITUTION), FAST, LENGTH, start, LAYERS)
+        size = {"length": LENGTH, "layers": LAYERS, "initial_state": start}
+        slab = ShearedSlab(gas=GASES[gas](SLAB_RESTITUTION), shear_rate=FAST, **size)
         found.append(Case(f"slab_{stage}_{gas}_{start}", slab, options, steady))
 
     for start in STARTS:

@@ -20,8 +20,8 @@ TOLERANCE = 0.003
 """The accuracy that the defaults are to have."""
 
 
-def sequential(data: Shear) -> dict[str, dict[str, list[float]]]:
-    """Steady values of the sequential program at `POINTS`: value and error by name."""
+def sequential(data: Shear) -> dict[str, dict[str, Estimate]]:
+    """Steady values of the sequential program at `POINTS` by name."""
     options = data.size.independent
     asked = {**options, "program": store.program(Path(independent.__file__))}
 
@@ -33,7 +33,8 @@ def sequential(data: Shear) -> dict[str, dict[str, list[float]]]:
             found[f"{gas} {alpha}"] = {name: [*one] for name, one in values.items()}
         return found
 
-    return store.kept(data.folder / "independent.json", asked, compute, data.fresh)
+    found = store.kept(data.folder / "independent.json", asked, compute, data.fresh)
+    return {p: {n: Estimate(v, e) for n, (v, e) in x.items()} for p, x in found.items()}
 
 
 def _difference(name: str):

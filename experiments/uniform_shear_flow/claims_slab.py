@@ -187,7 +187,7 @@ def _mean_between(series, temperature: str, name: str, low: float, high: float):
     return np.sum(weights * value), np.sqrt(np.sum((weights * error) ** 2)) * together
 
 
-def _starts(data: Shear, stage: str) -> dict[str, object]:
+def _starts(data: Shear, stage: str) -> dict:
     """The series of IHS from the three initial states, by equation."""
     return {eq: data.slab(stage, "ihs", s) for s, eq in STARTS.items()} | {"(3.12)": flat(data)}
 

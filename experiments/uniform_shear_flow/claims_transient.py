@@ -90,7 +90,7 @@ def fewer_than_local_equilibrium(data: Shear) -> Finding:
 
 
 def bgk_temperature(data: Shear) -> Finding:
-    model = float(bgk_shear_flow.steady_state(0.5, FAST).temperature)
+    model = float(np.asarray(bgk_shear_flow.steady_state(0.5, FAST).temperature))
     ihs, ehs = (model / float(data.steady(g, 0.5, FAST, "temperature")) - 1.0 for g in BOTH)
     return Finding(
         f"T_BGK is {percent(ehs)} from EHS and {percent(ihs)} from IHS",
@@ -102,7 +102,7 @@ def kinetic_maximum(data: Shear) -> Finding:
     places = {}
     for name in ("shear_stress", "normal_stress_xy", "relative_speed_cubed", "a2"):
         both = [data.series("ihs", alpha, FAST) for alpha in (0.5, 0.9)]
-        places[name] = max(float(one["clock"][int(one[name].argmax())]) for one in both)
+        places[name] = max(float(one["clock"][int(np.argmax(one[name].values))]) for one in both)
     text = ", ".join(f"{name} {place:.2f}" for name, place in places.items())
     return Finding(f"largest s at the maximum: {text}", max(places.values()) < 2.0)
 

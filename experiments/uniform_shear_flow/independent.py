@@ -12,13 +12,13 @@ from ..numbers import over_parts
 
 try:
     from numba import njit
-
-    compiled = njit(fastmath=True)
 except ImportError:  # an optional check
+    njit = None
 
-    def compiled(function):
-        """Too slow to be used."""
-        return None
+
+def compiled(function):
+    """By numba, or left as it is: too slow to be used."""
+    return njit(fastmath=True)(function) if njit else function
 
 
 WARM_UP, DURATION = 60.0, 120.0
@@ -39,7 +39,7 @@ NAMES = (
 
 def available() -> bool:
     """True if numba is installed."""
-    return advance is not None
+    return njit is not None
 
 
 def steady(

@@ -207,7 +207,7 @@ class Tail(NamedTuple):
 
     exponent: Estimate
     misfits: tuple[float, float]
-    slopes: tuple[Estimate, Estimate]
+    slopes: tuple[Estimate, ...]
     first: float
     last: float
 

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from jdsmc import Estimate
 from jdsmc.theory import bgk_shear_flow
 
 from ..claims import shown
@@ -60,7 +59,7 @@ def slab_steady_states(data: Shear) -> list[str]:
         if case in data.results:
             for mine, name in pairs.items():
                 slab, flat = data.results[case][mine], data.steady(gas, 0.9, FAST, name)
-                rows.append([label, mine, slab, flat, score(slab.distance(flat))])
+                rows.append([label, mine, slab, flat, score(float(slab.distance(flat)))])
     return grid(["gas", "observable", "slab", "homogeneous", "difference/σ"], rows)
 
 
@@ -117,8 +116,8 @@ def independent_check(data: Shear) -> list[str]:
         mine = {name: data.steady(gas, alpha, FAST, name) for name in CHECKED}
         mine["below_1"] = data.steady(gas, alpha, FAST, "speed_ratio")[0] * SHARES[0]
         for name, value in mine.items():
-            other = Estimate(*found[f"{gas} {alpha}"][name])
-            apart = score(value.distance(other))
+            other = found[f"{gas} {alpha}"][name]
+            apart = score(float(value.distance(other)))
             rows.append([f"{gas.upper()} {alpha}", name, value, other, apart])
     return grid(["system", "observable", "jdsmc", "sequential loop", "difference/σ"], rows)
 

@@ -5,6 +5,8 @@ paths to the cold wall (half of all); ε0 is the reduced gradient there. For oth
 with the same ε0. Then Δκ*(ε0, g*) = κ*(ε0, g*) - κ*(ε0, 0), eq. (33).
 """
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 
@@ -121,12 +123,10 @@ def rule(result: Result, window: float = conduction.WINDOW, gradient: float | No
     It returns a dict of the quantities in `NAMES`, for every value of gravity.
     """
     coords = result.to_xarray()["realizations"].to_dataset()
-    gravity, z, length = (
-        coords["gravity"].values,
-        coords["z"].values,
-        float(result.attrs["parameter_length"]),
-    )
-    exponent = 1.0 - 0.5 * result.scene().gas.speed_exponent()
+    gravity, z = coords["gravity"].values, coords["z"].values
+    length = float(result.attrs["parameter_length"])
+    scene: Any = result.scene()
+    exponent = 1.0 - 0.5 * scene.gas.speed_exponent()
 
     def at_points(averages: dict) -> dict:
         profile = conduction.profiles(averages)

@@ -5,6 +5,8 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -95,6 +97,8 @@ def test_commands(capsys):
 PROGRAM = """
 import sys
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 from experiments.__main__ import load
 paper, folder = load(sys.argv[1]), Path(sys.argv[2])
 for path in paper.reproduce("tiny", folder):
@@ -133,9 +137,8 @@ def test_tiny_reproduction(name, tmp_path):
 def test_a_page_from_known_measurements(tmp_path):
     """Claims, tables and versions find their places; a claim is measured once."""
     paper, asked = load("conduction_limits"), []
-    data = type("Data", (), {"verdicts": {}, "results": {}})()
-    found = type("Found", (), {"attrs": _attributes()})()
-    data.results["one"] = found
+    found = SimpleNamespace(attrs=_attributes())
+    data: Any = SimpleNamespace(verdicts={}, results={"one": found})
     study = type(paper)("conduction_limits", paper.measure)
     study.template = "# T ({size} run)\n\n{provenance}\n\n{Group}\n\n{twice}\n"
     study.claims = {"Group": [claims.Claim("seven", "seven", "1", 7.0, 0.5)]}
