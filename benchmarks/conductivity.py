@@ -16,10 +16,10 @@ experiments/heat_flux_force for both).
 import numpy as np
 
 import jdsmc
-from jdsmc import InelasticHardSpheres, grid
-from jdsmc.engine import Engine
-from jdsmc.options import STEPS_PER_RECORD, TIME_STEP, Options
-from jdsmc.scenarios import HeatFluxForce
+from jdsmc import InelasticHardSpheres, sweep
+from jdsmc.running.engine import Engine
+from jdsmc.scenarios import HeatFluxForce, Options
+from jdsmc.scenarios.options import STEPS_PER_RECORD, TIME_STEP
 from jdsmc.transport import navier_stokes
 
 from .timing import say, seconds, summary
@@ -33,8 +33,6 @@ weight of a field in the limit times its noise, 4/3 / 0.05 to 1/3 / 0.1."""
 PAPER = {"field": 0.025, "time_step": 0.003, "particles": 200_000, "realizations": 200}
 APPROACH = 10.0
 """Time to the steady state, in τ0: the paper's."""
-RECORDS = 64 // STEPS_PER_RECORD
-"""Records of a chunk, as in `jdsmc.run`."""
 
 
 def measure(quick: bool) -> dict:
@@ -58,12 +56,11 @@ def measure(quick: bool) -> dict:
 def throughput(n_particles: int, repeats: int, scheme: str, time_step: float) -> dict:
     """Particle-steps per second of the engine in the steady state, two realizations."""
     gas = InelasticHardSpheres(RESTITUTION)
-    scene, _ = grid.flatten(HeatFluxForce(gas, PAPER["field"], scheme))
-    sizes = STEPS_PER_RECORD, RECORDS
-    options = Options.checked(n_particles, time_step, "strang", "float32", *sizes)
-    engine = Engine(scene, CORES, 1, options)
+    scenes, _ = sweep.points(HeatFluxForce(gas, PAPER["field"], scheme))
+    options = Options.checked(n_particles, time_step, "strang", "float32", STEPS_PER_RECORD)
+    engine = Engine(scenes, CORES, 1, options)
     say(f"throughput: {scheme}, dt = {time_step:g} τ, N = {n_particles}")
-    steps = STEPS_PER_RECORD * RECORDS
+    steps = STEPS_PER_RECORD * options.records
     for _ in range(3):  # compiles; a Gaussian costs what the steady state does
         engine.advance()
     times = np.array([seconds(engine.advance) for _ in range(repeats)])
@@ -87,7 +84,7 @@ def extrapolated(n_particles: int, n_realizations: int, duration: float, repeats
         for field, share in FIELDS.items():
             sizes = {"n_particles": n_particles, "n_realizations": n_realizations}
             taken, result = _timed(field, duration=share * duration, seed=seed, **sizes)
-            ratio = result["conductivity_ratio"]
+            ratio = result["modified_conductivity"]
             wall += taken
             approach += float(result.to_xarray()["steady_from_time"]) / duration
             value += weights[field] * ratio.value
@@ -118,7 +115,7 @@ def paper_noise(n_particles: int, n_realizations: int, duration: float, repeats:
     squares = []
     for seed in range(repeats + 1):
         _, result = _timed(PAPER["field"], duration=duration, seed=100 + seed, **sizes)
-        value, error = result["conductivity_ratio"]
+        value, error = result["modified_conductivity"]
         end = float(result.series["time"].values[-1])
         measured = end - float(result.to_xarray()["steady_from_time"])
         squares.append((error / value) ** 2 * n_particles * n_realizations * measured)

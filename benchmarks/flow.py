@@ -8,11 +8,13 @@ import jax.numpy as jnp
 from jax import lax
 
 from jdsmc import InelasticHardSpheres, random
-from jdsmc.collide import Collisions, hits_per_particle
-from jdsmc.options import STEPS_PER_RECORD, TIME_STEP, Options
-from jdsmc.pace import pace
-from jdsmc.scenarios import UniformShear
-from jdsmc.state import HomogeneousState
+from jdsmc.collisions.meet import Collisions
+from jdsmc.collisions.whole import hits_per_particle
+from jdsmc.motion.drive import temperature_of
+from jdsmc.scenarios import Options, UniformShear
+from jdsmc.scenarios.homogeneous import HomogeneousState
+from jdsmc.scenarios.options import STEPS_PER_RECORD, TIME_STEP
+from jdsmc.scenarios.pace import pace
 
 SHEAR_RATE = 4.0
 RECORDS_PER_CHUNK = 64 // STEPS_PER_RECORD  # as in jdsmc.run: 64 steps a chunk
@@ -26,8 +28,7 @@ def sheared_gas(restitution) -> UniformShear:
 
 def options(n_particles: int, time_step: float = TIME_STEP) -> Options:
     """The defaults of jdsmc.run."""
-    sizes = STEPS_PER_RECORD, RECORDS_PER_CHUNK
-    return Options.checked(n_particles, time_step, "strang", "float32", *sizes)
+    return Options.checked(n_particles, time_step, "strang", "float32", STEPS_PER_RECORD)
 
 
 class BareGas:
@@ -77,7 +78,7 @@ def _steps(scene, keys, states, first, steps: int, options: Options):
     """`steps` steps of every gas, numbered from `first`; accepted collisions and candidates."""
 
     def one_gas(key, state):
-        temperature = HomogeneousState.temperature_of(state.velocity)
+        temperature = temperature_of(state.velocity)
         majorant, duration = pace(temperature, state.majorant, scene.shear_rate, options)
         key = random.fold_in(key, SETTLING_RECORDS + 1)
 
@@ -88,8 +89,8 @@ def _steps(scene, keys, states, first, steps: int, options: Options):
         counts = jnp.arange(steps, dtype=jnp.uint32)
         velocity, tallies = lax.scan(one_step, state.velocity, counts)
         tally = Collisions.over(tallies)
-        n_particles = options.plan.rows * options.plan.lanes
-        hits = hits_per_particle(options.plan, majorant, duration) * steps
+        n_particles = options.rows.rows * options.rows.lanes
+        hits = hits_per_particle(options.rows, majorant, duration) * steps
         return (
             HomogeneousState(velocity, state.majorant),
             tally,

@@ -18,9 +18,9 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from jdsmc.engine import Engine
-from jdsmc.grid import flatten
-from jdsmc.options import Options
+from jdsmc import sweep
+from jdsmc.running.engine import Engine
+from jdsmc.scenarios import Options
 
 from . import flow
 from .timing import say, seconds, summary
@@ -61,7 +61,7 @@ def copy_bandwidth(size: int) -> float:
 
 def least_bytes(options: Options) -> float:
     """Bytes that a step must move for one particle (see above)."""
-    plan = options.plan
+    plan = options.rows
     taken = (2 * plan.first + plan.second) / plan.rows
     return 12.0 + 12.0 * taken
 
@@ -96,8 +96,8 @@ def _bare(n_particles: int, gases: int):
 
 def _machinery(n_particles: int, gases: int):
     """A chunk of the engine, compiled; the gas has settled."""
-    scene, _ = flatten(flow.sheared_gas(RESTITUTION))
-    engine = Engine(scene, gases, 1, flow.options(n_particles))
+    scenes, _ = sweep.points(flow.sheared_gas(RESTITUTION))
+    engine = Engine(scenes, gases, 1, flow.options(n_particles))
     chunks = flow.SETTLING_RECORDS // flow.RECORDS_PER_CHUNK + 1
     for _ in range(chunks):
         records, _ = engine.advance()

@@ -1,8 +1,8 @@
 """Ways to bring the particles of a layer together, per particle and step, on one core.
 
-`seats` is what the library does (`jdsmc.trios`): one scatter. The others order all particles by
-layer, at random within a layer, as sequential DSMC codes do; pairs then follow from the ranks. An
-order that is kept for several steps costs that much less, but partners are then up to a flight of
+`seats` is what the library does (`jdsmc.collisions.trios`): one scatter. The others order all
+particles by layer, at random within a layer, as sequential DSMC codes do; pairs then follow from
+the ranks. An order that is kept for several steps costs that much less, but partners are then up to a flight of
 several steps farther apart, which the scatter never needs.
 """
 
@@ -11,7 +11,8 @@ import jax.numpy as jnp
 import numpy as np
 from jax import lax
 
-from jdsmc import random, trios
+from jdsmc import random
+from jdsmc.collisions import trios
 
 from .timing import say, seconds, summary
 

@@ -22,10 +22,9 @@ code, other splitting.
 
 import numpy as np
 
-from jdsmc import run
-from jdsmc.engine import Engine
-from jdsmc.grid import flatten
-from jdsmc.options import TIME_STEP
+from jdsmc import run, sweep
+from jdsmc.running.engine import Engine
+from jdsmc.scenarios.options import TIME_STEP
 from jdsmc.stats import jackknife
 
 from . import flow
@@ -132,8 +131,8 @@ def ours(
 
 def _engine_seconds(n_particles: int) -> float:
     """Wall time of a chunk in the engine alone, what is left are history and tests on the host."""
-    scene, _ = flatten(flow.sheared_gas(RESTITUTION))
-    engine = Engine(scene, 8, 0, flow.options(n_particles))
+    scenes, _ = sweep.points(flow.sheared_gas(RESTITUTION))
+    engine = Engine(scenes, 8, 0, flow.options(n_particles))
     engine.advance()
     return float(np.median([seconds(engine.advance) for _ in range(40)]))
 
@@ -193,7 +192,7 @@ def peer(
         warm, measuring = warm + begin.seconds, measuring + run_on.seconds
         parts.append(_block_means(run_on))
     means = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-    value, error = jackknife(means, lambda m: {"stress": m["xy"] / m["temperature"]}, axis=0)
+    value, error, _ = jackknife(means, lambda m: {"stress": m["xy"] / m["temperature"]}, axis=0)
     relative = float(error["stress"] / value["stress"])
     say(
         f"precision: peer {streaming}, dt = {time_step:g} τ: {warm:.2f} s warm-up, "

@@ -1,6 +1,6 @@
 """Tables in Markdown from the measured numbers, and from nothing else."""
 
-from jdsmc.result import format_estimate
+from jdsmc.estimate import format_estimate
 
 
 def tables(data: dict) -> str:

@@ -16,15 +16,15 @@ import sys
 import numpy as np
 from jax import monitoring
 
-from jdsmc.engine import Engine
-from jdsmc.grid import flatten
+from jdsmc.running.engine import Engine
+from jdsmc.running.run import LEAST_REALIZATIONS
+from jdsmc.sweep import points as points_of
 
 from . import flow
 from .timing import say, seconds, summary
 from .worker import call
 
 RESTITUTION = 0.9
-LEAST_REALIZATIONS = 4  # jdsmc.run accepts no fewer
 COMPILING = (
     "/jax/core/compile/jaxpr_trace_duration",
     "/jax/core/compile/jaxpr_to_mlir_module_duration",
@@ -35,7 +35,7 @@ COMPILING = (
 def measure(quick: bool) -> dict:
     """Both series and the sweep."""
     sizes = [10**k for k in ((3, 4) if quick else (3, 4, 5, 6))]
-    copies = [4, 40] if quick else [4, 40, 400, 4000]
+    copies = [8, 40] if quick else [8, 40, 400, 4000]
     points = [1, 2] if quick else [1, 2, 4, 8, 16]
     repeats = 3 if quick else 5
     return {
@@ -118,5 +118,5 @@ def sweep(points: list[int], repeats: int) -> list[dict]:
 
 
 def _engine(restitution, realizations: int, n_particles: int) -> Engine:
-    scene, _ = flatten(flow.sheared_gas(restitution))
-    return Engine(scene, realizations, 0, flow.options(n_particles))
+    scenes, _ = points_of(flow.sheared_gas(restitution))
+    return Engine(scenes, realizations, 0, flow.options(n_particles))

@@ -14,14 +14,16 @@ reached is scaled to 1% as 1/√(time of the measurement), the warm-up staying a
 measurement that our own noise, error = A/√(N T), says it needs for 1%.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 import jdsmc
-from jdsmc import InelasticHardSpheres, grid
-from jdsmc.engine import Engine
-from jdsmc.gravity_effect import at_equal_gradient
-from jdsmc.options import TIME_STEP, Options
-from jdsmc.scenarios import FourierFlow
+from jdsmc import InelasticHardSpheres, sweep
+from jdsmc.results.gravity_effect import at_equal_gradient
+from jdsmc.running.engine import Engine
+from jdsmc.scenarios import FourierFlow, Options
+from jdsmc.scenarios.options import TIME_STEP
 
 from .pairing import WAYS
 from .timing import say, seconds, summary
@@ -64,15 +66,19 @@ def _scene():
     return FourierFlow(InelasticHardSpheres(1.0), COLD, np.array([0.0]))
 
 
+def _options(n_particles: int, time_step: float, splitting: str, steps: int) -> Options:
+    """One record a chunk, whatever its steps."""
+    sizes = (n_particles, time_step, splitting, "float32", steps)
+    return replace(Options.checked(*sizes, in_space=True), records=1)
+
+
 def throughput(
     n_particles: int, realizations: int, time_step: float, steps: int, repeats: int
 ) -> dict:
     """Time of a particle-step, with a sample after every `steps`."""
-    flat, _ = grid.flatten(_scene())
-    options = Options.checked(
-        n_particles, time_step, "strang", "float32", steps, records=1, in_space=True
-    )
-    engine = Engine(flat, realizations, 1, options)
+    scenes, _ = sweep.points(_scene())
+    options = _options(n_particles, time_step, "strang", steps)
+    engine = Engine(scenes, realizations, 1, options)
     engine.advance()
     times = np.array([seconds(engine.advance) for _ in range(repeats)])
     made = n_particles * realizations * steps * FourierFlow.samples_per_record
@@ -114,11 +120,9 @@ def conductivity(duration: float, repeats: int) -> dict:
 def paper_piece(duration: float, repeats: int) -> dict:
     """Seconds per particle and τ0 with the paper's parameters; two realizations on two cores."""
     steps = round(PAPER["interval"] / PAPER["time_step"])
-    flat, _ = grid.flatten(_scene())
-    options = Options.checked(
-        PAPER["particles"], PAPER["time_step"], "lie", "float32", steps, records=1, in_space=True
-    )
-    engine = Engine(flat, CORES, 1, options)
+    scenes, _ = sweep.points(_scene())
+    options = _options(PAPER["particles"], PAPER["time_step"], "lie", steps)
+    engine = Engine(scenes, CORES, 1, options)
     engine.advance()
     chunk = FourierFlow.samples_per_record * steps * PAPER["time_step"]
     count = max(1, round(duration / chunk))

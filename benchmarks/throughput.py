@@ -18,8 +18,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from jdsmc.engine import Engine
-from jdsmc.grid import flatten
+from jdsmc import sweep
+from jdsmc.running.engine import Engine
 
 from . import flow
 from .peer_numba import simulate
@@ -146,8 +146,8 @@ def machinery(n_particles: int, gases: int, collisions: float) -> Contestant:
 
 def started_engine(n_particles: int, gases: int, options) -> Engine:
     """An engine whose gases are steady."""
-    scene, _ = flatten(flow.sheared_gas(RESTITUTION))
-    engine, time = Engine(scene, gases, 1, options), 0.0
+    scenes, _ = sweep.points(flow.sheared_gas(RESTITUTION))
+    engine, time = Engine(scenes, gases, 1, options), 0.0
     while time < SETTLING_TIME:
         record, _ = engine.advance()
         time += float(np.mean(np.sum(record.elapsed, axis=2)))

@@ -62,7 +62,7 @@ def whole(name, value, low) -> int:
     """The value as an integer of at least `low`: 1e4 and NumPy's integers too, but not True."""
     if isinstance(value, bool | np.bool_) or not isinstance(value, int | float | np.number):
         raise TypeError(f"{name} must be an integer, got {value!r}.")
-    if not np.isfinite(value) or value != int(value):
+    if not isinstance(value, int) and not (np.isfinite(value) and value == int(value)):
         raise TypeError(f"{name} must be an integer, got {value!r}.")
     if value < low:
         raise ValueError(f"{name} = {value} is outside the allowed range [{low}, inf).")

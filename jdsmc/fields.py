@@ -26,17 +26,21 @@ def number(
     default: Any = REQUIRED,
     names: tuple[str, ...] = (),
     axes: int = 0,
+    example: Any = None,
 ) -> Any:
     """A physical number, traced in a step; a sweep gives it one more axis.
 
     Arguments: what it is and its unit; the interval it must lie in; `names` that may stand for
-    values; `axes` of the number itself: 0 for a scalar, 1 for a vector that belongs to the physics.
+    values; `axes` of the number itself: 0 for a scalar, 1 for a vector that belongs to the physics;
+    `example`, what the command line takes if nothing is said (a function of the relative error
+    asked, where it depends on that).
     """
     facts = {"low": low, "high": high, "low_included": low_included, "high_included": high_included}
+    said = {"meaning": meaning, "unit": unit, "range": facts, "names": names, "axes": axes}
     return eqx.field(
         default=default,
         converter=lambda value: value if isinstance(value, str) else check.physical(value),
-        metadata={"meaning": meaning, "unit": unit, "range": facts, "names": names, "axes": axes},
+        metadata=said | {"example": example},
     )
 
 
@@ -57,14 +61,25 @@ def derived() -> Any:
     return eqx.field(static=True, metadata={"derived": True})
 
 
+def held(module) -> list[tuple[dataclasses.Field, Any]]:
+    """Every field of a gas or scene, and what it holds."""
+    return [(field, getattr(module, field.name)) for field in dataclasses.fields(module)]
+
+
 def given(module) -> list[dataclasses.Field]:
     """The fields that make a gas or scene: all but those that are derived from others."""
     return [f for f in dataclasses.fields(module) if not f.metadata.get("derived", False)]
 
 
+def ingredients(module) -> dict[str, Any]:
+    """What a gas or scene was made from, by the names of its fields."""
+    names = {field.name for field in given(module)}
+    return {field.name: value for field, value in held(module) if field.name in names}
+
+
 def text(module) -> str:
     """A gas or scene with its numbers, as it would be typed."""
-    parts = [f"{f.name}={_shown(getattr(module, f.name))}" for f in given(module)]
+    parts = [f"{name}={_shown(value)}" for name, value in ingredients(module).items()]
     return f"{type(module).__name__}({', '.join(parts)})"
 
 
@@ -76,13 +91,13 @@ def _shown(value) -> str:
 
 def check_fields(module: eqx.Module) -> None:
     """Raise ValueError or TypeError unless every described field holds what it allows."""
-    for field in dataclasses.fields(module):
-        value, facts = getattr(module, field.name), field.metadata
+    for field, value in held(module):
+        facts = field.metadata
         if "choices" in facts:
             check.one_of(field.name, value, facts["choices"])
         elif "least" in facts:
             check.at_least(field.name, value, facts["least"])
-        elif "range" in facts and isinstance(value, str):
+        elif "range" in facts and facts["names"] and isinstance(value, str):
             check.one_of(field.name, value, (*facts["names"], "a number"))
         elif "range" in facts:
             check.in_range(field.name, value, axes=facts["axes"], **facts["range"])

@@ -12,6 +12,8 @@ import equinox as eqx
 import jax
 import numpy as np
 
+from .fields import held
+
 
 def is_number(leaf) -> bool:
     """True of the traced leaves of a scene: numbers and arrays, not names."""
@@ -42,8 +44,8 @@ def facts(scene, path: str) -> dict:
     here, known = scene, {}
     for step in path.split("."):
         if dataclasses.is_dataclass(here):
-            field = {f.name: f for f in dataclasses.fields(here)}[step]
-            known, here = dict(field.metadata), getattr(here, step)
+            field, here = {f.name: (f, value) for f, value in held(here)}[step]
+            known = dict(field.metadata)
         else:
             here = here[step] if isinstance(here, dict) else here[int(step)]
     return known
@@ -121,8 +123,8 @@ def fingerprint(scene) -> tuple[int, int]:
 def statics(module, prefix: str = "") -> dict[str, Any]:
     """Everything of a scene that is no number, by path: switches, sizes, names."""
     found: dict[str, Any] = {}
-    for field in dataclasses.fields(module):
-        value, path = getattr(module, field.name), prefix + field.name
+    for field, value in held(module):
+        path = prefix + field.name
         if dataclasses.is_dataclass(value):
             found |= statics(value, path + ".")
         elif field.metadata.get("static", False) or not _holds_numbers(value):

@@ -5,20 +5,14 @@ followed while the disturbance dies: its time integral is the coefficient, for a
 Method and proofs: docs/impulse_response.md. Theory to compare with: `jdsmc.theory.transport`.
 """
 
-from math import log, sqrt
+import xarray as xr
 
 from . import check
 from .results.result import Result
 from .running.limits import Limits
 from .running.run import options_of, scenes_of, simulate
-from .scenarios.navier_stokes import NavierStokes
+from .scenarios.navier_stokes import NavierStokes, duration_for, kick_for
 from .scenarios.options import STEPS_PER_RECORD
-
-NONLINEARITY = 0.125
-"""What is nonlinear in a kick biases a coefficient by this times ε²: 0.5% at 0.2, measured."""
-
-SLOWEST = 0.44
-"""Slowest decay of a response (1/τ0), that of κ at α = 0.3."""
 
 MOST_KICKS = 10_000
 
@@ -59,7 +53,8 @@ def navier_stokes(
         `Result` with `conductivity` κ/κ0, `modified_conductivity` κ'/κ0, `density_coefficient`
         nμ/(Tκ0), `viscosity` η/η0 and `a2` of the cooling state, each with an error. Reference
         values: first Sonine approximation of elastic spheres, `jdsmc.theory.transport`. Over `lag`,
-        the reduced time after a kick: the responses, F, the running integrals.
+        the reduced time after a kick: the responses, F, the running integrals; the same as
+        `result.series` over `time`.
     Raises:
         ValueError, TypeError: bad input, before anything is computed.
         FaultError: lost collisions or numbers that are not finite; `.result` has the kicks before.
@@ -69,8 +64,7 @@ def navier_stokes(
         fitted = (100_000, 4, 0.2, 15.0)
     else:
         check.scalar("rtol", rtol, 0.0, 1.0)
-        weak = min(0.2, sqrt(0.5 * rtol / NONLINEARITY))
-        fitted = (20_000, MOST_KICKS, weak, max(6.0, log(0.2 / rtol) / SLOWEST))
+        fitted = (20_000, MOST_KICKS, kick_for(rtol), duration_for(rtol))
     asked = (n_particles, n_kicks, kick, duration)
     particles, kicks, strength, followed = (
         default if given is None else given for given, default in zip(asked, fitted, strict=True)
@@ -79,7 +73,24 @@ def navier_stokes(
     scene = NavierStokes(gas, strength, followed)
     scenes = scenes_of(scene)
     options = options_of(scenes, particles, time_step, "strang", "float32", STEPS_PER_RECORD)
-    limits = Limits(scenes, rtol=rtol or 1e-9, budget=1e12, records=kicks)
-    return simulate(
-        scene, scenes, options, limits, n_realizations=n_realizations, seed=seed, progress=progress
+    limits = Limits(scenes, options, rtol=rtol or 1e-9, budget=1e12, records=kicks)
+    return with_lag_as_series(
+        simulate(
+            *(scene, scenes, options, limits),
+            **{"n_realizations": n_realizations, "seed": seed, "progress": progress},
+        )
     )
+
+
+def with_lag_as_series(result: Result) -> Result:
+    """`result.series` against the time after a kick: what one kick does is the series here."""
+    tree = result.to_xarray()
+    over_lag = [name for name, values in tree.data_vars.items() if "lag" in values.dims]
+    shorter = {name: _without_prefix(str(name)) for name in over_lag}
+    series = tree.to_dataset()[over_lag].rename(shorter).rename(lag="time")
+    tree["series"] = xr.DataTree(series)
+    return Result(tree)
+
+
+def _without_prefix(name: str) -> str:
+    return name.removeprefix("running_").removeprefix("response_")

@@ -2,10 +2,14 @@
 
 from typing import Any, NamedTuple
 
+import numpy as np
 from jaxtyping import Array, Float, Int32, UInt32
 
 Physical = Any
 """A physical number of a gas or scene: a float64 array on the host, traced in a step."""
+
+Whole = int | float | np.number
+"""A number that must be whole, however it is given: 10000, 1e4, np.int32(3)."""
 
 Scalar = Float[Array, ""]
 """One physical number; always traced, never static."""

@@ -1,8 +1,7 @@
 """Shapes and types of every annotated function are checked at run time, here only.
 
-All of jdsmc but `theory`, plain NumPy on anything array-like, which beartype cannot tell,
-`impulse`, whose records of the device are used again for those of the host, and `events`, whose
-functions numba compiles.
+All of jdsmc but `theory`, plain NumPy on anything array-like, which beartype cannot tell, and
+`events`, whose functions numba compiles.
 """
 
 import importlib.util
@@ -15,7 +14,7 @@ assert _SPEC is not None
 _CHECKED = [
     f"jdsmc.{module.name}"
     for module in pkgutil.iter_modules(_SPEC.submodule_search_locations)
-    if module.name not in ("theory", "impulse", "events")
+    if module.name not in ("theory", "events")
 ]
 with install_import_hook(_CHECKED, "beartype.beartype"):
     import jdsmc  # noqa: F401

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from jdsmc import ElasticHardSpheres, InelasticHardSpheres, check
-from jdsmc.options import Options
-from jdsmc.pairs import plan_pairs
+from jdsmc.collisions.pairs import plan_pairs
 from jdsmc.scenarios import UniformShear
+from jdsmc.scenarios.options import Options
 
 IHS = InelasticHardSpheres
 
@@ -90,13 +90,21 @@ def test_gas_of_another_kind():
         UniformShear("ihs", 4.0)
 
 
-@pytest.mark.parametrize("value", [True, 1.0, "3", None])
-def test_integers(value):
+@pytest.mark.parametrize("value", [True, np.bool_(True), 1.5, np.float32(0.1), np.nan, "3", None])
+def test_what_is_no_integer(value):
     with pytest.raises(TypeError, match="count must be an integer"):
         check.at_least("count", value, 0)
-    check.at_least("count", np.int64(3), 3)
-    with pytest.raises(ValueError, match=r"count = 2 .*\[3, inf\)"):
-        check.at_least("count", 2, 3)
+    with pytest.raises(TypeError, match="count must be an integer"):
+        check.whole("count", value, 0)
+
+
+@pytest.mark.parametrize("value", [3, 3.0, np.int32(3), np.int64(3), np.uint8(3), np.float64(3.0)])
+def test_integers(value):
+    """Whatever is whole counts, 1e4 included; the engine gets an int."""
+    check.at_least("count", value, 3)
+    assert check.whole("count", value, 3) == 3 and type(check.whole("count", value, 3)) is int
+    with pytest.raises(ValueError, match=r"count = 3.* \[4, inf\)"):
+        check.whole("count", value, 4)
 
 
 @pytest.mark.parametrize(
@@ -119,8 +127,11 @@ def test_options(changed, words):
         "splitting": "strang",
         "dtype": "float32",
         "steps": 8,
-        "records": 8,
     }
     assert Options.checked(**good).plan == plan_pairs(512, 0.1)
+    for same in ({"n_particles": 512.0}, {"dtype": np.float32}, {"dtype": np.dtype("float32")}):
+        assert Options.checked(**good | same) == Options.checked(**good)
+    with pytest.raises(TypeError, match=r"n_particles must be an integer, got 1000\.5"):
+        Options.checked(**good | {"n_particles": 1000.5})
     with pytest.raises(ValueError, match=words):
         Options.checked(**good | changed)

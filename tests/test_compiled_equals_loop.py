@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from jdsmc import ElasticHardSpheres, InelasticHardSpheres, random
-from jdsmc.options import Options
 from jdsmc.scenarios import UniformShear
 
-from .gases import f32, keys
+from . import helpers
+from .helpers import f32, keys
 
 
 @pytest.mark.parametrize("gas", [InelasticHardSpheres(0.7), ElasticHardSpheres(0.7, 0.85)])
@@ -19,7 +19,7 @@ def test_compiled_records_equal_the_loop(gas):
     Fused arithmetic rounds differently (1e-7 a step); the accept decisions are the same for this
     seed, so velocities agree to a few roundings: 1e-5.
     """
-    options = Options.checked(512, 0.1, "strang", "float32", 4, 3)
+    options = helpers.options(512, steps=4)
     scene = jax.tree.map(f32, UniformShear(gas, 4.0))
 
     def simulate(key, loop):

@@ -4,15 +4,17 @@ import numpy as np
 import pytest
 from scipy import stats as reference
 
-from jdsmc.stats import drift_significance, jackknife, linear_trend
+from jdsmc.stats import drift_significance, jackknife, variogram_ratio
 
 
 def test_error_of_a_mean():
     """The jackknife of a mean is std/√R exactly: to rounding."""
     x = np.random.default_rng(1).normal(size=(3, 8, 5))
-    value, error = jackknife({"x": x}, lambda m: {"x": m["x"]}, axis=1)
+    value, error, left_out = jackknife({"x": x}, lambda m: {"x": m["x"]}, axis=1)
     np.testing.assert_allclose(value["x"], x.mean(axis=1), rtol=1e-12)
     np.testing.assert_allclose(error["x"], x.std(axis=1, ddof=1) / np.sqrt(8), rtol=1e-12)
+    without_third = np.delete(x, 2, axis=1).mean(axis=1)
+    np.testing.assert_allclose(left_out["x"][2], without_third, rtol=1e-12)
 
 
 def test_error_of_a_ratio():
@@ -20,7 +22,7 @@ def test_error_of_a_ratio():
     rng = np.random.default_rng(2)
     common = rng.normal(size=8)
     x, y = 3 + 0.15 * (common + 0.3 * rng.normal(size=8)), 2 + 0.1 * common
-    value, error = jackknife({"x": x, "y": y}, lambda m: {"r": m["x"] / m["y"]}, axis=0)
+    value, error, _ = jackknife({"x": x, "y": y}, lambda m: {"r": m["x"] / m["y"]}, axis=0)
     ratio = x.mean() / y.mean()
     delta = np.std((x - ratio * y) / y.mean(), ddof=1) / np.sqrt(8)
     apart = np.hypot(x.std() / x.mean(), y.std() / y.mean()) / np.sqrt(8) * ratio
@@ -39,7 +41,7 @@ def test_coverage():
     n, count = 4000, 8
     rng = np.random.default_rng(3)
     x, y = (m + 0.03 * m * rng.normal(size=(n, count)) for m in (2.0, 5.0))
-    value, error = jackknife({"x": x, "y": y}, lambda m: {"r": m["x"] / m["y"]}, axis=1)
+    value, error, _ = jackknife({"x": x, "y": y}, lambda m: {"r": m["x"] / m["y"]}, axis=1)
     z = (value["r"] - 0.4) / error["r"]
     normal = reference.norm.ppf(reference.t.cdf(z, count - 1))
     assert abs(normal.mean()) < 4.5 / np.sqrt(n)
@@ -78,9 +80,17 @@ def test_constants_do_not_drift():
     assert drift_significance(np.ones(8), np.ones(8)) == 1.0
 
 
-def test_linear_trend():
-    times = np.sort(np.random.default_rng(7).random((3, 20)), axis=1)
-    np.testing.assert_allclose(linear_trend(times, 5 - 2 * times), -2, rtol=1e-12)
-    values = np.random.default_rng(8).random((3, 20))
-    slopes = [np.polyfit(t, v, 1)[0] for t, v in zip(times, values, strict=True)]
-    np.testing.assert_allclose(linear_trend(times, values), slopes, rtol=1e-9)
+def test_variogram_ratio():
+    """1 for independent blocks, 11/2 for means of a random walk, however far all of them drift.
+
+    256 realizations of 16 blocks: (12 x 256) squares over a lag of four, each counted four times,
+    leave 4 %; the bound is 4 of these.
+    """
+    rng = np.random.default_rng(7)
+    white, steps = rng.normal(size=(256, 16)), rng.normal(size=(256, 16, 50))
+    assert variogram_ratio(white) == pytest.approx(1.0, rel=0.16)
+    walk = np.cumsum(steps.reshape(256, -1), axis=1).reshape(steps.shape).mean(axis=2)
+    assert variogram_ratio(walk) == pytest.approx(5.5, rel=0.16)
+    drift = np.arange(16.0) ** 2
+    assert variogram_ratio(white + drift) == pytest.approx(variogram_ratio(white), rel=1e-9)
+    assert variogram_ratio(np.ones((8, 16))) == 0.0

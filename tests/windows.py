@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from jdsmc import grid
-from jdsmc.engine import Engine
-from jdsmc.history import History
-from jdsmc.options import Options
+from jdsmc import sweep
+from jdsmc.running.engine import Engine
+from jdsmc.running.history import History
+from jdsmc.scenarios.options import Options
 
 
 def window(scene, chunks, skip, **options):
@@ -16,14 +16,15 @@ def window(scene, chunks, skip, **options):
 
 def simulate(scene, chunks, *, n_particles=4000, n_realizations=16, seed=1, **options):
     """The history of one scene, and the records of a chunk."""
-    chosen = dict(time_step=0.1, splitting="strang", dtype="float32", steps=8, records=8) | options
-    options = Options.checked(n_particles, **chosen)
-    flat, _ = grid.flatten(scene)
-    engine = Engine(flat, n_realizations, seed, options)
-    history = History(n_particles, options.steps)
+    chosen = dict(time_step=0.1, splitting="strang", dtype="float32", steps=8) | options
+    scenes, _ = sweep.points(scene)
+    sizes = {"samples": scene.samples_per_record, "in_space": scene.in_space}
+    fitted = scenes[0].fit_options(Options.checked(n_particles, **chosen, **sizes))
+    engine = Engine(scenes, n_realizations, seed, fitted)
+    history = History(scenes, n_particles, fitted.steps)
     for _ in range(chunks):
         history.append(*engine.advance())
-    return history, options.records
+    return history, fitted.records
 
 
 def within(difference, sigmas=4.5):

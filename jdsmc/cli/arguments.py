@@ -1,226 +1,205 @@
-"""Arguments of the command line: what each scene can be told. Used by `jdsmc.cli` only."""
+"""The arguments of a command that simulates: read, and made into a scene for every gas."""
 
+import argparse
+import re
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Any, NoReturn
 
-import tyro
+from .. import sweep
+from ..scenarios.base import AbstractScene
+from .catalogue import GASES, Gas, did_you_mean, find_gases, first_line, scenes
+from .options import UNSET, Option, options_of, run_options
+from .spelling import symbols
 
-from ..gases.base import RATE_FACTORS, ElasticHardSpheres, InelasticHardSpheres, MaxwellMolecules
-from ..scenarios import FourierFlow, HeatFluxForce, HomogeneousCooling, ShearedSlab, UniformShear
-from ..scenarios.options import STEPS_PER_RECORD, TIME_STEP
-
-GASES = ("ihs", "ehs", "ehs-measured")
-
-
-@dataclass(frozen=True, kw_only=True)
-class Numerics:
-    """How a run is made."""
-
-    particles: int | None = None
-    """Particles of one realization (at least 64, in a homogeneous gas with a divisor from 64 to
-    1024); by default 20000, or 50 for each layer of a Fourier flow."""
-    realizations: int = 8
-    """Independent realizations (at least 4); the error bars come from them."""
-    seed: int = 0
-    """Seed of all random numbers."""
-    duration: float | None = None
-    """Time to simulate, in units of tau0; if not given, run until steady and precise."""
-    collisions: float | None = None
-    """Time to simulate, in accepted collisions per particle."""
-    observable: str | None = None
-    """Observable whose precision ends the run; by default the main one of the scene."""
-    rtol: float = 1e-3
-    """Relative standard error asked of that observable (dimensionless)."""
-    budget: float = 5_000.0
-    """Most collisions per particle to spend."""
-    time_step: float = TIME_STEP
-    """Largest time step as a fraction of tau(T), and of 1/shear_rate, in (0, 1]."""
-    splitting: Literal["strang", "lie"] = "strang"
-    """Order of flow (or flight) and collisions in a step: second order, or first as in the
-    papers."""
-    dtype: Literal["float32", "float64"] = "float32"
-    """Precision of the velocities."""
-    steps_per_record: int = STEPS_PER_RECORD
-    """Time steps between two measurements."""
-    progress: bool = True
-    """Show a progress bar."""
+RESERVED = {"gas", "out", "plot", "no-progress", "help"}
+UNITS = (
+    "Lengths are in mean free paths λ0 at the mean density, times in τ0 = λ0/v0 with "
+    "v0 = sqrt(2 T0/m)."
+)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Output:
-    """Files to write."""
+class Parser(argparse.ArgumentParser):
+    """A parser that raises ValueError instead of leaving."""
 
-    out: Path | None = None
-    """File to write (HDF5); it must not exist."""
-    plot: Path | None = None
-    """Picture to write (PNG, PDF or SVG)."""
+    def __init__(self, **options):
+        super().__init__(allow_abbrev=False, **options)
+
+    def error(self, message: str) -> NoReturn:
+        raise ValueError(f"{message}.")
 
 
 @dataclass(frozen=True)
-class Scene:
-    """What every command that simulates is told; a scene adds its own numbers.
+class Asked:
+    """What a command asks for: a scene for every gas by name, arguments of `run`, files."""
 
-    `swept` names the fields that hold numbers as text: `scenes` takes their values.
+    scenes: dict[str, AbstractScene]
+    run: dict[str, Any]
+    out: str | None
+    plot: str | None
+
+
+class Arguments:
+    """The options of a scene on the command line, for the gases it is asked with.
+
+    Arguments: `command`, what was typed before the options; the class of the scene; the words.
     """
 
-    swept: ClassVar[tuple[str, ...]]
-    has_gases: ClassVar[bool] = False
+    def __init__(self, command: str, scene: type[AbstractScene], words: list[str]):
+        self.command, self.scene = command, scene
+        self.words = joined_negatives(words)
+        self.of_scene = options_of(scene, {}, RESERVED, "scene")
+        offered = [gas for gas in GASES if fits(gas, scene, self.of_scene)]
+        self.usual_gas = offered[0].name if offered else GASES[0].name
+        asked = Parser(add_help=False)
+        asked.add_argument("--gas", default=self.usual_gas)
+        text = asked.parse_known_args(self.words)[0].gas
+        self.gases = find_gases(text, [gas.name for gas in offered])
+        self.known = {gas.name: gas for gas in (*offered, *self.gases)}
+        taken = RESERVED | {option.flag for option in self.of_scene}
+        particles = "(default: what the scene needs, mostly 20000)"
+        self.of_run = run_options(taken, scene.default_rtol, particles)
+        taken |= {option.flag for option in self.of_run}
+        self.of_gases = {
+            name: options_of(gas.make, gas.fixed, taken, "gas") for name, gas in self.known.items()
+        }
 
-    numerics: tyro.conf.OmitArgPrefixes[Numerics]
-    output: tyro.conf.OmitArgPrefixes[Output]
+    def read(self, several: bool) -> Asked:
+        """Everything that was asked; ValueError or TypeError for what cannot be.
 
-    def scenes(self, values: dict[str, Any]) -> dict[str, Any]:
-        """The scene of every gas by its name, made of the numbers in `values`."""
-        raise NotImplementedError
-
-
-@dataclass(frozen=True)
-class Granular(Scene):
-    """A scene whose gas has a restitution."""
-
-    swept: ClassVar[tuple[str, ...]] = ("restitution",)
-
-    restitution: str = "0.9"
-    """Coefficient of normal restitution, in (0, 1]. Sweeps take ranges first:last:step and lists
-    separated by commas, e.g. 0.5:0.95:0.05 or 0.5,0.7."""
-
-
-@dataclass(frozen=True)
-class Sheared(Granular):
-    """A scene whose gas, one of two kinds, is sheared."""
-
-    swept: ClassVar[tuple[str, ...]] = ("restitution", "shear_rate", "rate_factor")
-    has_gases: ClassVar[bool] = True
-
-    shear_rate: str = "4"
-    """Shear rate a, in units of 1/tau0, at least 0; sweeps take ranges and lists."""
-    gas: str = "ihs"
-    """Gas: ihs (inelastic hard spheres), ehs (frictional elastic hard spheres), ehs-measured (the
-    same with the measured drag); sweeps take a list."""
-    rate_factor: str = "linear"
-    """Collision rate of the elastic gas over the inelastic one: linear, viscosity, or a number."""
-
-    def gases(self, values: dict[str, Any]) -> dict[str, Any]:
-        """The gases asked for, by name."""
-        return {name: _gas(name, values) for name in self.gas.split(",")}
-
-
-@dataclass(frozen=True)
-class Shear(Sheared):
-    """Uniform shear flow of a granular gas, or (sweep) many of them.
-
-    Lengths are in mean free paths lambda0, times in tau0 = lambda0/v0, v0 = sqrt(2 T0/m).
-    """
-
-    def scenes(self, values):
-        gases = self.gases(values)
-        return {name: UniformShear(gas, values["shear_rate"]) for name, gas in gases.items()}
-
-
-@dataclass(frozen=True)
-class Slab(Sheared):
-    """A granular gas between Lees-Edwards planes, or (sweep) many of them.
-
-    Lengths are in mean free paths lambda0, times in tau0 = lambda0/v0, v0 = sqrt(2 T0/m), at the
-    mean density. With `--duration` the profiles are followed in time.
-    """
-
-    swept: ClassVar[tuple[str, ...]] = ("restitution", "shear_rate", "rate_factor", "length")
-
-    length: str = "2.5"
-    """Distance of the planes in lambda0, in (0, 1000]; sweeps take ranges and lists."""
-    initial_state: Literal["equilibrium", "nonequilibrium", "local_equilibrium"] = "equilibrium"
-    """A gas at rest (eq. 3.5), the paper's state far from equilibrium (3.6), or uniform shear."""
-    layers: int = 50
-    """Layers across the slab: collisions take place, and profiles are measured, within them."""
-
-    def scenes(self, values):
-        numbers = (values["shear_rate"], values["length"])
-        switches = {"initial_state": self.initial_state, "layers": self.layers}
-        gases = self.gases(values)
-        return {name: ShearedSlab(gas, *numbers, **switches) for name, gas in gases.items()}
-
-
-@dataclass(frozen=True)
-class Cooling(Granular):
-    """A granular gas that cools freely, or (sweep) many of them.
-
-    Lengths are in mean free paths lambda0, times in tau0 = lambda0/v0, v0 = sqrt(2 T0/m).
-    """
-
-    def scenes(self, values):
-        if self.numerics.splitting != "strang":
-            raise ValueError("splitting = 'lie' has no meaning here: only collisions act.")
-        return {"ihs": HomogeneousCooling(InelasticHardSpheres(values["restitution"]))}
-
-
-@dataclass(frozen=True)
-class HeatFlux(Granular):
-    """A granular gas under the heat-flux force, or (sweep) many of them.
-
-    Lengths are in mean free paths lambda0, times in tau0 = lambda0/v0, v0 = sqrt(2 T0/m).
-    """
-
-    swept: ClassVar[tuple[str, ...]] = ("restitution", "field")
-
-    field: str = "0.025"
-    """Strength of the force, lambda0 eps (dimensionless), in [0, 2]; coefficients are those of the
-    limit of weak fields. Sweeps take ranges and lists."""
-    scheme: Literal["exact", "paper"] = "exact"
-    """The force of a step: its exact flow around the collisions, or the paper's explicit step."""
-
-    def scenes(self, values):
-        gas = InelasticHardSpheres(values["restitution"])
-        scene = HeatFluxForce(gas, values["field"], self.scheme)
-        endless = self.numerics.duration is None and self.numerics.collisions is None
-        if endless and (values["field"] == 0).any():
+        `several`: true if numbers may be swept, and several gases named.
+        """
+        parser = self.parser()
+        known, rest = parser.parse_known_args(self.words)
+        if rest:
+            raise ValueError(self.unknown(rest[0]))
+        given = {flag.replace("_", "-"): text for flag, text in vars(known).items()}
+        self.check_owners(given)
+        options = {option.name: option for option in self.of_run}
+        arguments = {
+            name: option.value(given.get(option.flag), None) for name, option in options.items()
+        }
+        arguments["progress"] = "no-progress" not in given
+        rtol = arguments.get("rtol") or self.scene.default_rtol
+        made = {gas.name: self.make(gas, given, rtol) for gas in self.gases}
+        if not several and (len(made) > 1 or any(map(sweep.swept_paths, made.values()))):
+            raise ValueError("several values were given; use `jdsmc sweep` for ranges and lists.")
+        swept = {name: tuple(sweep.dimensions(scene)) for name, scene in made.items()}
+        if len(set(swept.values())) > 1:
+            each = "; ".join(f"{name}: {', '.join(of) or 'nothing'}" for name, of in swept.items())
             raise ValueError(
-                "field = 0 drives no heat flux to be measured; give field > 0, or duration or "
-                "collisions."
+                f"gases side by side must be swept over the same numbers, here {each}; "
+                "sweep them one by one."
             )
-        return {"ihs": scene}
+        return Asked(made, arguments, given.get("out"), given.get("plot"))
+
+    def make(self, gas: Gas, given: dict[str, str], rtol: float) -> AbstractScene:
+        """The scene with one of the gases."""
+
+        def values(options: list[Option]) -> dict[str, Any]:
+            return {one.name: one.value(given.get(one.flag), rtol) for one in options}
+
+        matter = gas.make(**gas.fixed, **values(self.of_gases[gas.name]))
+        return self.scene(gas=matter, **values(self.of_scene))
+
+    def check_owners(self, given: dict[str, str]) -> None:
+        """Raise ValueError for an option that belongs to gases that were not asked for."""
+        used = {one.flag for gas in self.gases for one in self.of_gases[gas.name]}
+        for name, options in self.of_gases.items():
+            for option in options:
+                if option.flag in given and option.flag not in used:
+                    asked = ", ".join(gas.name for gas in self.gases)
+                    raise ValueError(
+                        f"--{option.flag} means nothing to the gas {asked}; it is of {name}: "
+                        f"write --gas {name}."
+                    )
+
+    def unknown(self, word: str) -> str:
+        """A sentence about a word that is no option of this command."""
+        if not word.startswith("--"):
+            return f"{word!r} is not understood; options are written --name value."
+        flag = word.removeprefix("--").split("=")[0]
+        options = [*self.of_scene, *(one for of in self.of_gases.values() for one in of)]
+        meant = [one.flag for one in options if flag.lower() in symbols(one.meaning)]
+        near = did_you_mean(flag, [one.flag for one in (*options, *self.of_run)] + list(RESERVED))
+        hint = f" (did you mean --{meant[0]}?)" if meant else near.replace("mean ", "mean --")
+        others = [
+            name
+            for name, scene in scenes().items()
+            if flag in {one.flag for one in options_of(scene, {}, RESERVED, "scene")}
+        ]
+        also = f", which is of {', '.join(others)}" if others and not hint else ""
+        return f"there is no option --{flag} here{hint}{also}; `{self.command} --help` lists all."
+
+    def parser(self) -> Parser:
+        """The parser, whose help explains every option."""
+        parser = Parser(
+            prog=self.command,
+            usage=f"{self.command} [options]",
+            description=f"{first_line(self.scene)} {UNITS} Numbers may be ranges first:last:step "
+            "and lists separated by commas for `jdsmc sweep`.",
+            argument_default=argparse.SUPPRESS,
+        )
+        add(parser.add_argument_group("scene"), self.of_scene)
+        self.add_gases(parser.add_argument_group("gas"))
+        run = parser.add_argument_group("run")
+        add(run, self.of_run)
+        run.add_argument("--no-progress", action="store_true", help="show no progress bar")
+        files = parser.add_argument_group("files")
+        files.add_argument("--out", metavar="FILE", help="file to write (HDF5); must not exist")
+        files.add_argument("--plot", metavar="FILE", help="picture to write (PNG, PDF or SVG)")
+        return parser
+
+    def add_gases(self, group) -> None:
+        """`--gas`, and the options of all gases, each once, with the names of its owners."""
+        names = "; ".join(f"{name}: {gas.meaning}" for name, gas in self.known.items())
+        group.add_argument(
+            "--gas",
+            metavar="NAME[S]",
+            help=f"{names}; or module:Class of your own; sweeps take a list "
+            f"(default: {self.usual_gas})",
+        )
+        owners: dict[str, list[str]] = {}
+        shown: dict[str, Option] = {}
+        for name, options in self.of_gases.items():
+            for option in options:
+                owners.setdefault(option.flag, []).append(name)
+                shown.setdefault(option.flag, option)
+        add(group, list(shown.values()), {flag: ", ".join(who) for flag, who in owners.items()})
 
 
-@dataclass(frozen=True)
-class Fourier(Scene):
-    """Heat conduction between two walls under gravity, or (sweep) many such states.
+def fits(gas: Gas, scene: type[AbstractScene], of_scene: list[Option]) -> bool:
+    """True if the scene can be made with the gas, all numbers being those taken by default.
 
-    Lengths are in mean free paths lambda0 at the mean density, times in tau0 = lambda0/v0 with
-    v0 = sqrt(2 T0/m), T0 being the temperature of the hot wall.
+    Where a number must be given, only the dimension is looked at.
     """
-
-    swept: ClassVar[tuple[str, ...]] = ("cold_temperature", "gravity", "length")
-
-    cold_temperature: str = "0.05"
-    """Temperature of the cold wall over that of the hot one, in (0, 1]. Sweeps take ranges
-    first:last:step and lists separated by commas."""
-    gravity: str = "0"
-    """Gravity in v0^2/lambda0, positive towards the cold wall; in [-1, 1]. Write --gravity=-0.016,
-    or a list --gravity=-0.016,0,0.008."""
-    length: str = "10"
-    """Distance of the walls in lambda0, in (0, 1000]."""
-    wall: Literal["maxwell", "bgk"] = "maxwell"
-    """What the walls emit: a Maxwellian (type I), or the BGK gas that conducts heat (type II)."""
-    gas: Literal["hard-spheres", "maxwell-molecules"] = "hard-spheres"
-    """The gas, elastic in both cases."""
-    layers: int = 100
-    """Layers across the slab: collisions take place, and profiles are measured, within them."""
-
-    def scenes(self, values):
-        gas = InelasticHardSpheres(1.0) if self.gas == "hard-spheres" else MaxwellMolecules()
-        return {self.gas: FourierFlow(gas, **values, wall=self.wall, layers=self.layers)}
+    if gas.make.dimension not in scene.dimensions:
+        return False
+    of_gas = options_of(gas.make, gas.fixed, set(), "gas")
+    if any(one.default is UNSET for one in (*of_scene, *of_gas)):
+        return True
+    fields, matter = ({o.name: o.value(None, 0.01) for o in of} for of in (of_scene, of_gas))
+    try:
+        scene(gas=gas.make(**gas.fixed, **matter), **fields)
+    except (TypeError, ValueError):
+        return False
+    return True
 
 
-def _gas(name: str, values: dict[str, Any]):
-    if name not in GASES:
-        raise ValueError(f"gas = {name!r} is unknown; choose from {', '.join(GASES)}.")
-    if name == "ihs":
-        return InelasticHardSpheres(values["restitution"])
-    drag = "measured" if "measured" in name else "local"
-    return ElasticHardSpheres(values["restitution"], values["rate_factor"], drag)
+def add(group, options: list[Option], owners: dict[str, str] | None = None) -> None:
+    """Options with their help; `owners` says whose each is."""
+    for option in options:
+        whose = f"{owners[option.flag]}: " if owners else ""
+        text = (whose + option.help).replace("%", "%%")
+        group.add_argument(f"--{option.flag}", metavar=option.metavar, help=text)
 
 
-def named(name: str, text: str) -> bool:
-    """True if a swept field holds a name instead of numbers."""
-    return name == "rate_factor" and text in RATE_FACTORS
+def joined_negatives(words: list[str]) -> list[str]:
+    """`--gravity -0.016,0` as `--gravity=-0.016,0`, which is no option."""
+    joined: list[str] = []
+    for word in words:
+        negative = re.match(r"-[.\d]|-(inf|nan)\b", word)
+        if negative and joined and joined[-1].startswith("--") and "=" not in joined[-1]:
+            joined[-1] += f"={word}"
+        else:
+            joined.append(word)
+    return joined

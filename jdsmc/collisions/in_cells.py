@@ -18,6 +18,8 @@ def collide_in_layers(
     velocity: Velocities,
     duration: Scalar,
     watch: Watch | None = None,
+    *,
+    crowded: bool = False,
 ) -> tuple[Velocities, Collisions, Scalar]:
     """Collisions of the particles of each of `count` layers during `duration` (τ0), second order.
 
@@ -30,7 +32,7 @@ def collide_in_layers(
     (n_particles,) = layer.shape
     dtype = velocity[0].dtype
     population = populations(layer, count)
-    groups = groups_in(population)
+    groups = groups_in(population, crowded=crowded)
     first, second = shares(population, groups, dtype)
     trios = seat(key, Stream.SEATS, layer, groups, most_groups(n_particles, count))
     a, b, c = (tuple(v[seats] for v in velocity) for seats in trios.seats)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from .. import check
-from ..faults import FaultError
+from ..errors import FaultError
 from . import system as at
 from .system import Samples, System
 

@@ -75,10 +75,24 @@ class AbstractGas(eqx.Module):
         return local.energy_loss_rate(self, temperature)
 
 
+def check_gas(gas) -> None:
+    """Raise TypeError for what is no gas."""
+    if not isinstance(gas, AbstractGas):
+        raise TypeError(f"gas must be a jdsmc gas, got {gas!r}.")
+
+
 def speed_exponent(gas: AbstractGas) -> float | None:
     """The common exponent of a swept gas; None if a point has none or another."""
     found = {one.speed_exponent() for one in sweep.points(gas)[0]}
     return found.pop() if len(found) == 1 else None
+
+
+def power_law(gas: AbstractGas) -> float:
+    """The common exponent of a swept gas; ValueError if it has none."""
+    exponent = speed_exponent(gas)
+    if exponent is None:
+        raise ValueError(f"the pair rate of {type(gas).__name__} is no power of the speed.")
+    return exponent
 
 
 def conserves_energy(gas: AbstractGas) -> bool:

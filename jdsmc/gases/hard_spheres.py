@@ -15,7 +15,8 @@ MEAN_RATE = math.sqrt(2.0 / math.pi)
 
 def restitution_field():
     """α in (0, 1]."""
-    return number("coefficient of normal restitution α", low=0.0, high=1.0, low_included=False)
+    meaning = "coefficient of normal restitution α"
+    return number(meaning, low=0.0, high=1.0, low_included=False, example=0.9)
 
 
 class InelasticHardSpheres(AbstractGas):

@@ -91,7 +91,7 @@ def flux_density(gradient: Scalar, cold: bool, speed):
     ∫dτ τ^{-3/2} exp(-|1-τ|/(εu) - u²/τ) = ∫dy (1+y)^{-1/2} exp(-y/((1+y)εu) - u²(1+y)), and
     = ∫dy (1+y)^{-3/2} exp(-y/(εu) - u²/(1+y)); trapezoidal rule in ln y.
     """
-    y = jnp.asarray(np.exp(_LOG_DEPTH), gradient.dtype)
+    y = jnp.asarray(np.exp(_LOG_DEPTH), gradient.dtype).reshape((1,) * speed.ndim + (-1,))
     depth = gradient * speed[..., None]
     square = (speed * speed)[..., None]
     if cold:
@@ -100,7 +100,7 @@ def flux_density(gradient: Scalar, cold: bool, speed):
     else:
         exponent = -y / depth - square / (1.0 + y)
         weight = y / (1.0 + y) ** 1.5
-    return jnp.sum(weight * jnp.exp(exponent), axis=-1) * (_LOG_DEPTH[1] - _LOG_DEPTH[0])
+    return jnp.sum(weight * jnp.exp(exponent), axis=-1) * float(_LOG_DEPTH[1] - _LOG_DEPTH[0])
 
 
 def speed_table(gradient: Scalar, cold: bool) -> Float[Array, " steps"]:

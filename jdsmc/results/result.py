@@ -3,8 +3,10 @@
 import json
 import sys
 from collections.abc import Iterator
+from html import escape
 from pathlib import Path
 
+import equinox as eqx
 import numpy as np
 import xarray as xr
 
@@ -156,6 +158,9 @@ class Result:
     def __repr__(self) -> str:
         return f"<jdsmc.Result {self.attrs.get('scene', '')}>\n{self.table()}"
 
+    def _repr_html_(self) -> str:
+        return f"<b>{escape(str(self.attrs.get('scene', '')))}</b>{views.html(self)}"
+
 
 def _built(data, classes: tuple[type, ...]):
     """A scene or gas from plain data."""
@@ -173,8 +178,12 @@ def _built(data, classes: tuple[type, ...]):
         found = sys.modules.get(module)
         for part in name.split("."):
             found = vars(found).get(part) if found is not None else None
-    if not isinstance(found, type):
-        raise ValueError(f"the class {name} of {module} is not imported; pass it: scene({name}).")
+    # nothing else may be called: a file could name any class there is
+    if not (isinstance(found, type) and issubclass(found, eqx.Module)):
+        raise ValueError(
+            f"the class {name} of {module} is not imported; pass it: scene({name}). It must be "
+            "one of a scene or gas."
+        )
     return found(**{field: _built(value, classes) for field, value in data["fields"].items()})
 
 

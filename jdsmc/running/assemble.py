@@ -7,8 +7,9 @@ from .. import sweep
 from ..measure.observable import CLOCKS, COLLISION_RATIO, COLLISIONS, TIME, Observable
 from ..results.result import Result
 from ..scenarios.base import AbstractScene
+from ..scenarios.options import Options
 from ..stats import jackknife
-from .estimates import reported, steady_estimates
+from .estimates import against_time, steady_estimates
 from .history import History
 from .provenance import provenance, run_name
 
@@ -21,7 +22,7 @@ STEADY_FROM = (
 class Labels:
     """Dimensions and coordinates of a sweep, and of what its scenes report beside it."""
 
-    def __init__(self, scene: AbstractScene, scenes: list[AbstractScene]):
+    def __init__(self, scene: AbstractScene, scenes: list[AbstractScene], options: Options):
         self.coords = {}
         facts = {short: sweep.facts(scene, path) for path, short in sweep.labels(scene).items()}
         for name, values in sweep.dimensions(scene).items():
@@ -31,7 +32,7 @@ class Labels:
             self.coords[name] = (along, values, described)
         self.dims = tuple(self.coords)
         self.shape = tuple(len(values) for values in sweep.dimensions(scene).values())
-        self.axes = common_axes([one.axes() for one in scenes])
+        self.axes = common_axes([one.axes(options) for one in scenes])
 
     def dataset(self, columns: dict, observables, extra: tuple = ()) -> xr.Dataset:
         """Variables from arrays whose first axis is the sweep point, then `extra`, then their own.
@@ -76,13 +77,13 @@ def assemble(scene: AbstractScene, history: History, tracker, session, attrs: di
     Arguments: the scene as the user made it; the history; the tracker, or None where steady
     values make no sense; the session; attributes that tell how the run ended.
     """
-    labels = Labels(scene, history.scenes)
+    options = session.options
+    labels = Labels(scene, history.scenes, options)
     groups = {"/series": _series(scene, labels, history)}
     root = xr.Dataset(coords=labels.coords)
-    options = session.options
     points = range(len(history.scenes))
     if tracker is not None and history.length and _measured(tracker, history, options.records):
-        starts = tracker.start
+        starts = [int(start) for start in tracker.start]
         estimates = [steady_estimates(history, p, starts[p]) for p in points]
         columns = {}
         for name in estimates[0][0]:
@@ -101,8 +102,14 @@ def assemble(scene: AbstractScene, history: History, tracker, session, attrs: di
         )
         if scene.sampled:
             groups["/distribution"] = _distribution(scene, labels, history, starts, options.records)
+        remarks = {
+            one.remarks(*history.window(p, starts[p], history.length))
+            for p, one in enumerate(history.scenes)
+        }
+        attrs = attrs | {"remarks": " ".join(sorted(remarks - {""}))}
     root.attrs = provenance(scene, options) | attrs
     root.attrs["swept"] = " ".join(labels.dims)
+    root.attrs["n_records"] = history.length
     root.attrs["run"] = run_name(scene, options, attrs["seed"], history.length)
     groups["/"] = root
     return Result(xr.DataTree.from_dict(groups))
@@ -114,7 +121,7 @@ def _measured(tracker, history: History, records: int) -> bool:
     return bool(ready)
 
 
-def _at_start(clock: np.ndarray, start: int) -> float:
+def _at_start(clock: np.ndarray, start: int | np.integer) -> float:
     return float(np.mean(clock[:, start]))
 
 
@@ -133,7 +140,7 @@ def _one_series(history: History, point: int) -> dict[str, np.ndarray]:
     one = history.scenes[point]
 
     def observables(averages):
-        found = reported(one, averages, evolving=True)
+        found = against_time(one, averages)
         found[COLLISIONS.name] = averages["collisions"]
         if "local_collisions" in averages:
             with np.errstate(divide="ignore", invalid="ignore"):

@@ -1,4 +1,6 @@
-"""Arrays of a batch: one point of the records of all."""
+"""What both engines share: arrays of a batch, and the cores they may use."""
+
+import os
 
 import jax
 import numpy as np
@@ -18,3 +20,10 @@ def gathered(parts: list, shape: tuple[int, int]):
     return jax.tree.map(
         lambda *arrays: np.concatenate(arrays)[:count].reshape(shape + arrays[0].shape[1:]), *parts
     )
+
+
+def cores() -> int:
+    """Cores this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1

@@ -6,7 +6,6 @@ number: so random numbers and roundings depend on the gas alone, not on the swee
 a sweep of other length compiles nothing new.
 """
 
-import os
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
@@ -19,7 +18,7 @@ from jax import lax
 from .. import random, sweep
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
-from .batch import gathered
+from .batch import cores, gathered
 
 TOGETHER = 20_000
 """Particles of a homogeneous gas that a CPU advances at once: with fewer, starting each operation
@@ -51,7 +50,7 @@ class Engine:
             self._scenes.append(_placed(_group(batch, first, size), device, options))
             self._keys.append(jax.device_put(_stacked(_group(keys, first, size)), device))
         work = list(zip(self._scenes, self._keys, strict=True))
-        self._pool = ThreadPoolExecutor(min(len(work), max(_cores(), len(devices))))
+        self._pool = ThreadPoolExecutor(min(len(work), max(cores(), len(devices))))
         self.states: list[Any] = self._share(lambda n: _start(*work[n], options))
 
     def advance(self):
@@ -117,12 +116,18 @@ def _each(function, *trees):
 
 def gas_keys(scene: AbstractScene, n_realizations: int, seed: int) -> list:
     """A key for every realization of one point: from the seed and the values of its numbers."""
-    key = random.key_from_seed(seed)
-    for word in sweep.fingerprint(scene):
-        key = random.fold_in(key, np.uint32(word))
-    numbers = jnp.arange(n_realizations, dtype=jnp.uint32)
-    keys = jax.vmap(lambda r: random.fold_in(key, r))(numbers)
-    return [jax.tree.map(lambda x: x[r], keys) for r in range(n_realizations)]  # noqa: B023
+    words = np.array(sweep.fingerprint(scene), np.uint32)
+    keys = _keys(random.key_from_seed(seed), words, np.arange(n_realizations, dtype=np.uint32))
+    high, low = (np.asarray(word) for word in keys)
+    return [random.Key(*both) for both in zip(high, low, strict=True)]
+
+
+@jax.jit
+def _keys(key, words, realizations):
+    """Compiled: a sweep of a hundred points makes a hundred of these."""
+    for k in range(2):
+        key = random.fold_in(key, words[k])
+    return jax.vmap(lambda r: random.fold_in(key, r))(realizations)
 
 
 def group_size(gases: int, scene: AbstractScene, options: Options) -> int:
@@ -140,17 +145,10 @@ def _group(items: list, first: int, size: int) -> list:
 
 
 def _stacked(keys: list):
-    return jax.tree.map(lambda *words: jnp.stack(words), *keys)
+    return jax.tree.map(lambda *words: np.stack(words), *keys)
 
 
 def _placed(scenes: list, device, options: Options):
     numbers, rest = eqx.partition(sweep.stack(scenes), sweep.is_number)
     cast = jax.tree.map(lambda x: jnp.asarray(x, options.dtype), numbers)
     return eqx.combine(jax.device_put(cast, device), rest)
-
-
-def _cores() -> int:
-    """Cores this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1

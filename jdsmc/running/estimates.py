@@ -10,10 +10,21 @@ from ..stats import jackknife
 from .history import History
 
 
-def reported(scene: AbstractScene, averages: dict, evolving: bool = False) -> dict:
+def against_time(scene: AbstractScene, averages: dict) -> dict:
+    """What a scene reports against time, from averages of records."""
+    wanted = [one.name for one in (*scene.reports, *scene.evolves)]
+    if type(scene).evolution is AbstractScene.evolution:
+        return _complete(scene, scene.observables(averages), wanted)
+    found = scene.evolution(averages)
+    return {name: np.asarray(found[name], dtype=float) for name in wanted if name in found}
+
+
+def reported(scene: AbstractScene, averages: dict) -> dict:
     """What a scene reports, from averages; FaultError for a scene that forgets some of it."""
-    found = scene.observables(averages)
-    wanted = [one.name for one in (*scene.reports, *(scene.evolves if evolving else ()))]
+    return _complete(scene, scene.observables(averages), [one.name for one in scene.reports])
+
+
+def _complete(scene: AbstractScene, found: dict, wanted: list[str]) -> dict:
     missing = [name for name in wanted if name not in found]
     if missing:
         raise FaultError(

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from ..scenarios.base import AbstractScene
+from ..errors import FaultError
+from ..scenarios.base import AbstractScene, weighted_means
 from .batch import point_of
 
 CLOCKS = ("elapsed", "accepted", "energy_lost", "time", "collisions", "plain_time")
@@ -77,14 +78,38 @@ class History:
         Averages over particles are weighted with the time their record stands for; `accepted` and
         `energy_lost` become rates per particle and time.
         """
+        return self.scenes[point].window(*self.window(point, first, last))
+
+    def window(
+        self, point: int, first: int | np.integer, last: int | np.integer
+    ) -> tuple[dict[str, np.ndarray], np.ndarray]:
+        """Averages of each record of a window of one point, and how long the records lasted."""
+        return self.records(point, first, last), self["elapsed"][point, :, slice(first, last)]
+
+    def records(
+        self, point: int, first: int | np.integer, last: int | np.integer
+    ) -> dict[str, np.ndarray]:
+        """Averages of each record of a window of one point: arrays (realizations, records, ...)."""
         window = slice(first, last)
         elapsed = self["elapsed"][point, :, window]
         series = {name: self[name][point, :, window] for name in self.names}
-        means = self.scenes[point].window(series, elapsed)
         for name in ("accepted", "energy_lost"):
-            means[name] = np.sum(self[name][point, :, window], axis=1) / np.sum(elapsed, axis=1)
-        means["time_step"] = np.mean(elapsed, axis=1) / self.steps_per_record
-        return means
+            series[name] = self[name][point, :, window] / elapsed
+        series["time_step"] = elapsed / self.steps_per_record
+        return series
+
+    def monitored(self, point: int, first, last, names: tuple[str, ...]) -> dict[str, np.ndarray]:
+        """Time averages of some averages over a window: arrays (realizations, ...).
+
+        FaultError for a scene that has no such averages.
+        """
+        missing = [name for name in names if name not in self._columns]
+        if missing:
+            scene = type(self.scenes[point]).__name__
+            raise FaultError(f"{scene}.averages lacks {', '.join(missing)}, which it monitors.")
+        elapsed = self["elapsed"][point, :, slice(first, last)]
+        columns = {name: self[name][point, :, slice(first, last)] for name in names}
+        return weighted_means(columns, elapsed)
 
     def samples(
         self, point: int, first: int | np.integer, records_per_chunk: int
@@ -125,10 +150,8 @@ class History:
         common = common[common <= np.min(time[:, -1])]
         series = {name: self[name][point] for name in self.names}
         elapsed = self["elapsed"][point]
+        series |= self.records(point, 0, self.length)
         series["collisions"] = self["collisions"][point]
-        for name in ("accepted", "energy_lost"):
-            series[name] = self[name][point] / elapsed
-        series["time_step"] = elapsed / self.steps_per_record
         if "instant_rate" in series:
             series["local_collisions"] = _integral(time, series["instant_rate"])
         elif "local_rate" in series:

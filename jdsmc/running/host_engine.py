@@ -1,6 +1,5 @@
 """Chunks of gases whose steps are plain Python (an event-driven simulation, say), on all cores."""
 
-import os
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
@@ -10,7 +9,7 @@ import numpy as np
 from .. import sweep
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
-from .batch import gathered
+from .batch import cores, gathered
 
 
 class HostEngine:
@@ -30,8 +29,7 @@ class HostEngine:
         self._keys = [
             (seed, *sweep.fingerprint(scene), r) for scene in scenes for r in range(n_realizations)
         ]
-        cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else None
-        self._pool = ThreadPoolExecutor(cores)
+        self._pool = ThreadPoolExecutor(cores())
         work = zip(self._scenes, self._keys, strict=True)
         self.states: list[Any] = list(
             self._pool.map(

@@ -4,20 +4,23 @@ import numpy as np
 
 from .. import check
 from ..errors import NotSteadyError
+from ..scenarios.approach import UNKNOWN
 from ..scenarios.base import AbstractScene
+from ..scenarios.options import Options
 from .steady import tracker_for
 
 
 class Limits:
     """A time, a number of collisions, or a precision and a budget.
 
-    Arguments: the scene of each point; the rest as of `run`. `records` ends a run after a number
-    of them, whatever the precision.
+    Arguments: the scene of each point, the options; the rest as of `run`. `records` ends a run
+    after a number of them, whatever the precision.
     """
 
     def __init__(
         self,
         scenes: list[AbstractScene],
+        options: Options,
         *,
         duration=None,
         collisions=None,
@@ -40,7 +43,7 @@ class Limits:
         self.observables = _names(scene, observable)
         self.fixed = duration is not None or collisions is not None
         self.monitored = scene.monitored
-        self.approaches = [scene.approach() for scene in scenes]
+        self.approaches = [s.approach(options) if s.has_steady_state() else UNKNOWN for s in scenes]
         without = [scene for scene in scenes if not scene.has_steady_state()]
         self.can_be_steady = not without
         if not self.fixed and without:

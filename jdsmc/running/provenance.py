@@ -14,7 +14,7 @@ import jax
 import numpy as np
 
 from .. import sweep
-from ..fields import given
+from ..fields import ingredients
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
 
@@ -55,10 +55,9 @@ def provenance(scene: AbstractScene, options: Options) -> dict:
 def specification(module: Any) -> Any:
     """A scene or gas as plain data: class and fields, enough to build it again."""
     if dataclasses.is_dataclass(module) and not isinstance(module, type):
-        fields = given(module)
         return {
             "class": f"{type(module).__module__}:{type(module).__qualname__}",
-            "fields": {f.name: specification(getattr(module, f.name)) for f in fields},
+            "fields": {name: specification(value) for name, value in ingredients(module).items()},
         }
     if isinstance(module, np.ndarray | np.generic | jax.Array):
         return np.asarray(module).tolist()

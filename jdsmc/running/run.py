@@ -2,11 +2,14 @@
 
 from typing import Literal
 
+import numpy as np
+
 from .. import check, sweep
 from ..errors import FaultError, NotSteadyError
 from ..results.result import Result
 from ..scenarios.base import AbstractScene
-from ..scenarios.options import STEPS_PER_RECORD, TIME_STEP, Options
+from ..scenarios.options import Options
+from ..types import Whole
 from .assemble import assemble
 from .limits import Limits
 from .progress import interruptible, progress_bar
@@ -19,18 +22,18 @@ LEAST_REALIZATIONS = 8
 def run(
     scene: AbstractScene,
     *,
-    n_particles: int | None = None,
-    n_realizations: int = 8,
-    seed: int = 0,
+    n_particles: Whole | None = None,
+    n_realizations: Whole = 8,
+    seed: Whole = 0,
     duration: float | None = None,
     collisions: float | None = None,
     observable: str | tuple[str, ...] | None = None,
     rtol: float | None = None,
     budget: float = 5_000.0,
-    time_step: float = TIME_STEP,
+    time_step: float | None = None,
     splitting: Literal["strang", "lie"] = "strang",
-    dtype: Literal["float32", "float64"] = "float32",
-    steps_per_record: int = STEPS_PER_RECORD,
+    dtype: Literal["float32", "float64"] | type | np.dtype = "float32",
+    steps_per_record: Whole | None = None,
     progress: bool = True,
 ) -> Result:
     """Simulate a scene and return labelled results with error bars.
@@ -52,12 +55,13 @@ def run(
         observable, rtol: the precision asked for; by default of the scene's main observables, and
             0.001 for most scenes.
         budget: most collisions per particle to spend.
-        time_step: largest time step in (0, 1], as a fraction of τ(T) and of the scene's own times
-            (1/shear_rate) in homogeneous gases and sheared slabs, of τ0 in a Fourier flow; it is
-            shortened so that no pair is likelier to collide than the pair selection allows.
+        time_step: largest time step in (0, 1], 0.05 for most scenes, as a fraction of τ(T) and of
+            the scene's own times (1/shear_rate) in homogeneous gases and sheared slabs, of τ0 in a
+            Fourier flow; it is shortened so that no pair is likelier to collide than the pair
+            selection allows.
         splitting: "strang" (second order) or "lie" (first order, as in the papers).
         dtype: "float32", or "float64" with JAX's x64 mode enabled.
-        steps_per_record: time steps between two measurements.
+        steps_per_record: time steps between two measurements, 16 for most scenes.
         progress: show a progress bar.
     Raises:
         ValueError, TypeError: bad input, before anything is computed.
@@ -69,8 +73,10 @@ def run(
     """
     scenes = scenes_of(scene)
     options = options_of(scenes, n_particles, time_step, splitting, dtype, steps_per_record)
+    scenes = [one.prepared() for one in scenes]
     limits = Limits(
         scenes,
+        options,
         duration=duration,
         collisions=collisions,
         observable=observable,
@@ -98,7 +104,9 @@ def options_of(scenes, n_particles, time_step, splitting, dtype, steps_per_recor
     scene = scenes[0]
     options = Options.checked(
         scene.default_particles() if n_particles is None else n_particles,
-        *(time_step, splitting, dtype, steps_per_record),
+        scene.default_time_step if time_step is None else time_step,
+        *(splitting, dtype),
+        scene.default_steps if steps_per_record is None else steps_per_record,
         samples=scene.samples_per_record,
         in_space=scene.in_space,
     )
@@ -117,8 +125,8 @@ def simulate(
     options: Options,
     limits: Limits,
     *,
-    n_realizations: int,
-    seed: int,
+    n_realizations: Whole,
+    seed: Whole,
     progress: bool,
 ) -> Result:
     """Advance until a limit is met, and assemble what was measured; see `run`."""
@@ -128,8 +136,9 @@ def simulate(
     session = Session(scenes, n_realizations, seed, options, limits)
     attrs = {"seed": seed, "n_realizations": n_realizations, **limits.attributes()}
 
-    def result(stopped: str) -> Result:
-        tracker = session.tracker if limits.can_be_steady and session.is_settled() else None
+    def result(stopped: str, whole: bool = True) -> Result:
+        steady = whole and limits.can_be_steady and session.is_settled()
+        tracker = session.tracker if steady else None
         return assemble(scene, session.history, tracker, session, attrs | {"stopped": stopped})
 
     try:
@@ -143,7 +152,7 @@ def simulate(
                     stopped = f"interrupted after {session.spent:.1f} collisions per particle"
     except FaultError as error:
         if session.history.length:
-            error.result = result(f"fault: {error}")
+            error.result = result(f"fault: {error}", whole=False)
         raise
     if session.failed:
         error = NotSteadyError(stopped)

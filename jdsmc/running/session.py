@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..errors import FaultError
 from ..scenarios.options import Options
 from . import faults
 from .engine import Engine
@@ -26,11 +27,13 @@ class Session:
         self.options, self.limits = options, limits
         self.engine = kind(scenes, n_realizations, seed, options)
         self.history = History(scenes, options.n_particles, options.steps)
-        self.tracker = tracker_for(limits.approaches, scenes[0].monitored, steady_changes)
+        drift = None if scenes[0].correlated else steady_changes
+        self.correlated = scenes[0].correlated
+        self.tracker = tracker_for(limits.approaches, scenes[0].monitored, drift)
         self.precision = np.inf
         self.failed = self._settled = False
         self._asked_at = -1
-        self._next_look = 0.0
+        self._next_look = self._next_check = 0.0
 
     def advance(self) -> None:
         """One chunk, its faults checked, and the steady state looked for."""
@@ -38,8 +41,19 @@ class Session:
         faults.check_record(self.history, record)
         self.history.append(record, sample)
         faults.check_collisions(self.history, record)
+        if self.history.length >= self._next_check:
+            self._next_check = 1.5 * self.history.length
+            self._look_for_trouble()
         if self.limits.can_be_steady:
             self.tracker.update(self.history)
+
+    def _look_for_trouble(self) -> None:
+        """Raise FaultError if a scene finds fault with the later half of the run so far."""
+        for point, scene in enumerate(self.history.scenes):
+            half = self.history.length // 2
+            trouble = scene.trouble(*self.history.window(point, half, self.history.length))
+            if trouble:
+                raise FaultError(trouble)
 
     @property
     def spent(self) -> float:
@@ -52,7 +66,7 @@ class Session:
         if limits.fixed:
             return "the asked time was simulated" if self.progress() >= 1.0 else ""
         if self.tracker.all_measuring and self.spent >= self._next_look:
-            self._next_look = 1.05 * self.spent
+            self._next_look = (1.2 if self.correlated else 1.05) * self.spent
             if self._precise() and self.is_settled() and self._precise():
                 return f"{limits.named} is known to {self.precision:.2g} (asked {limits.rtol:g})"
         if limits.records is not None and self.history.length >= limits.records:
@@ -107,11 +121,12 @@ class Session:
         blocks as independent, so it is used for this decision only.
         """
         first, last = self.tracker.start[point], self.history.length
+        blocks = self.limits.records is None and not self.correlated
+        if last - first < (2 * BLOCKS if blocks else 1):
+            return np.inf
         value, error, _ = steady_estimates(self.history, point, first)
         block_error = error
-        if self.limits.records is None:
-            if last - first < 2 * BLOCKS:
-                return np.inf
+        if blocks:
             edges = np.linspace(first, last, BLOCKS + 1).astype(int)
             _, block_error, _ = steady_estimates(self.history, point, edges)
         return max(

@@ -31,8 +31,11 @@ LEAST = 3.0
 """Slow times of a warm-up from a distance of 1: realizations, which start alike, have then the
 scatter that makes their error bars."""
 
-TOLERANCE = 0.3
+TOLERANCE = 0.5
 """Largest bias, as a share of the standard error."""
+
+LATEST, LATER = 0.6, 1.15
+"""Share of the run at which a measurement may begin at the latest; factor of the starts tried."""
 
 BLOCKS = 16
 """Blocks of a measurement whose correlation is looked at where the slow time is not known."""
@@ -87,7 +90,7 @@ class SteadyTracker:
                 self.confirm(history, point)
                 self._next_test[point] = self._grown(history, point, collisions[point])
 
-    def _end_warm_up(self, history: History, point: int, collisions: float) -> None:
+    def _end_warm_up(self, history: History, point: int, collisions) -> None:
         self._next_test[point] = GROWTH * collisions
         if self.certain[point]:
             self.start[point] = history.length
@@ -106,7 +109,7 @@ class SteadyTracker:
         return float(began + GROWTH * max(collisions - began, FIRST_TEST))
 
     @staticmethod
-    def _collisions_at(history: History, point: int, record: int) -> float:
+    def _collisions_at(history: History, point: int, record) -> float:
         return float(np.mean(history["collisions"][point, :, min(record, history.length - 1)]))
 
     def confirm(self, history: History, point: int) -> bool:
@@ -125,16 +128,22 @@ class SteadyTracker:
 
         A start that is too early for that is moved on, as far as to the middle of the run.
         """
-        return all([self._settled(history, point) for point in range(len(self.start))])
+        return all(self._settled(history, point) for point in range(len(self.start)))
 
     def _settled(self, history: History, point: int) -> bool:
-        if self.start[point] < 0 or not self.confirm(history, point):
+        if self.start[point] < 0:
             return False
+        end = float(history.mean_collisions()[point])
+        latest = max(LATEST * end, self.least[point])
+        first = -1
+        while not self.confirm(history, point):
+            if self.start[point] == first:
+                return False
+            first = self.start[point]
         if not self.certain[point] and not self._decorrelated(history, point, self.start[point]):
             return False
-        end = history.mean_collisions()[point]
         began = self._collisions_at(history, point, self.start[point])
-        while began <= max(0.6 * end, self.least[point]):
+        while began <= latest:
             start = history.record_at_collisions(point, began)
             if history.length - start < 2:
                 return False
@@ -142,10 +151,10 @@ class SteadyTracker:
                 moved = start > self.start[point]
                 self.start[point] = start
                 return not moved or self.confirm(history, point)
-            began *= 1.15
+            began *= LATER
         return False
 
-    def _resolved(self, history: History, point: int, start: int, began: float, end: float) -> bool:
+    def _resolved(self, history: History, point: int, start: int, began, end) -> bool:
         early = history.record_at_collisions(point, 0.5 * began)
         if not early < start:
             return False
@@ -159,23 +168,32 @@ class SteadyTracker:
                 return False
         return True
 
-    def _decorrelated(self, history: History, point: int, first: int) -> bool:
+    def _decorrelated(self, history: History, point: int, first) -> bool:
         edges = np.linspace(first, history.length, BLOCKS + 1).astype(int)
         if np.min(np.diff(edges)) < 1:
             return False
-        blocks = [history.point(point, a, b) for a, b in pairwise(edges)]
+        blocks = [history.monitored(point, a, b, self.monitored) for a, b in pairwise(edges)]
         series = (np.stack([b[name] for b in blocks], axis=1) for name in self.monitored)
         return all(variogram_ratio(values) < CORRELATED for values in series)
 
     def _significance(self, history: History, point: int, first, middle, last) -> float:
         """Smallest significance of a drift of the monitored moments between two windows."""
-        early, late = history.point(point, first, middle), history.point(point, middle, last)
-        return min(float(drift_significance(early[n], late[n])) for n in self.monitored)
+        early, late = (
+            history.monitored(point, a, b, self.monitored)
+            for a, b in ((first, middle), (middle, last))
+        )
+        return min(smallest_significance(early[n], late[n]) for n in self.monitored)
 
     @property
     def all_measuring(self) -> bool:
         """True once every point has left its warm-up."""
         return bool(np.all(self.start >= 0))
+
+
+def smallest_significance(early: np.ndarray, late: np.ndarray) -> float:
+    """Of a drift of any component, which are as many chances (Bonferroni)."""
+    each = drift_significance(early, late, axis=0)
+    return float(np.min(each)) * each.size
 
 
 def rms(values) -> float:
@@ -184,7 +202,7 @@ def rms(values) -> float:
     return float(np.sqrt(np.mean(finite**2))) if finite.size else 0.0
 
 
-def left_over(began: float, end: float, slow_time: float) -> float:
+def left_over(began, end, slow_time) -> float:
     """Mean of exp(-s/slow_time) from `began` to `end` over that from `began`/2 to `began`.
 
     With a change d seen between the two windows the late one is still off by this times d, or a

@@ -2,17 +2,28 @@
 
 from .approach import Approach
 from .base import AbstractScene, Record
+from .cooling_disks import CoolingDisks
 from .fourier_flow import FourierFlow
 from .heat_flux_force import HeatFluxForce
 from .homogeneous import AbstractHomogeneous, homogeneous_observables
 from .homogeneous_cooling import HomogeneousCooling
+from .molecular_dynamics import MolecularDynamics
 from .navier_stokes import NavierStokes
 from .options import Options
 from .sheared_slab import ShearedSlab
 from .slab import AbstractSlab, SlabState
 from .uniform_shear import UniformShear
 
-SCENES = (UniformShear, HomogeneousCooling, HeatFluxForce, FourierFlow, ShearedSlab, NavierStokes)
+SCENES = (
+    UniformShear,
+    HomogeneousCooling,
+    HeatFluxForce,
+    FourierFlow,
+    ShearedSlab,
+    NavierStokes,
+    CoolingDisks,
+    MolecularDynamics,
+)
 """Those of the library, in the order of the command line."""
 
 __all__ = [
@@ -21,9 +32,11 @@ __all__ = [
     "AbstractScene",
     "AbstractSlab",
     "Approach",
+    "CoolingDisks",
     "FourierFlow",
     "HeatFluxForce",
     "HomogeneousCooling",
+    "MolecularDynamics",
     "NavierStokes",
     "Options",
     "Record",

@@ -9,11 +9,11 @@ import numpy as np
 
 from ..collisions.meet import Collisions
 from ..fields import check_fields, text
-from ..gases.base import AbstractGas
+from ..gases.base import AbstractGas, check_gas
 from ..measure.observable import Observable
-from ..types import Key, Scalar
+from ..types import Scalar
 from .approach import UNKNOWN, Approach
-from .options import PARTICLES, Options
+from .options import PARTICLES, STEPS_PER_RECORD, TIME_STEP, Options
 
 
 class Record(eqx.Module):
@@ -47,6 +47,8 @@ class AbstractScene(eqx.Module):
                 kicks = jdsmc.random.normals(key, velocity, jdsmc.random.Stream.OWN)
                 return tuple(v + width * k for v, k in zip(velocity, kicks)), tally
 
+    (`docs/own_scene.md` makes half of the kicks before the collisions: that is second order.)
+
     Methods of the first group are pure and traced. All others run on the host in float64 and see
     ONE gas at ONE point of a sweep: every number of the scene is a scalar.
     """
@@ -72,10 +74,15 @@ class AbstractScene(eqx.Module):
     traced: ClassVar[bool] = True
     """False if `initial` and `advance` are plain Python on NumPy arrays (compiled otherwise)."""
     samples_per_record: ClassVar[int] = 1
+    default_time_step: ClassVar[float] = TIME_STEP
+    default_steps: ClassVar[int] = STEPS_PER_RECORD
+    """Time steps between two records if nothing else is asked."""
+    correlated: ClassVar[bool] = False
+    """True if observables come from correlations in time: `window` then cuts blocks that are long
+    against them, and shorter windows are not compared."""
 
     def __check_init__(self):
-        if not isinstance(self.gas, AbstractGas):
-            raise TypeError(f"gas must be a jdsmc gas, got {self.gas!r}.")
+        check_gas(self.gas)
         name = type(self).__name__
         if self.gas.dimension not in self.dimensions:
             wanted = " or ".join(str(d) for d in self.dimensions)
@@ -93,11 +100,11 @@ class AbstractScene(eqx.Module):
     # On the device: pure, traced, one gas.
 
     @abstractmethod
-    def initial(self, key: Key, options: Options) -> Any:
-        """The state at time zero."""
+    def initial(self, key: Any, options: Options) -> Any:
+        """The state at time zero. `key` is a `jdsmc.types.Key`; a seed sequence if not traced."""
 
     @abstractmethod
-    def advance(self, key: Key, state: Any, options: Options) -> tuple[Any, Record]:
+    def advance(self, key: Any, state: Any, options: Options) -> tuple[Any, Any]:
         """One record: what is measured at its start, and the steps that follow."""
 
     def finish_chunk(self, state: Any) -> tuple[Any, Any]:
@@ -105,6 +112,10 @@ class AbstractScene(eqx.Module):
         return state, None
 
     # On the host, asked before anything is compiled.
+
+    def prepared(self) -> "AbstractScene":
+        """The scene of one point with the numbers that follow from the others worked out."""
+        return self
 
     def fit_options(self, options: Options) -> Options:
         """The options as the scene needs them; raises ValueError for what cannot be right."""
@@ -122,7 +133,7 @@ class AbstractScene(eqx.Module):
         """What to change where there is no steady state."""
         return "give duration or collisions"
 
-    def approach(self) -> Approach:
+    def approach(self, options: Options) -> Approach:
         """How fast a steady state is approached, as far as it is known beforehand."""
         return UNKNOWN
 
@@ -145,32 +156,49 @@ class AbstractScene(eqx.Module):
         and, for a time series, `collisions` and `local_collisions`. Leading axes of any shape.
         """
 
+    def evolution(self, means: dict[str, np.ndarray]) -> dict[str, Any]:
+        """What is reported against time; by default all observables."""
+        return self.observables(means)
+
+    def trouble(self, series: dict[str, np.ndarray], weights: np.ndarray) -> str:
+        """A sentence if a whole run so far cannot be trusted (arguments as of `window`)."""
+        return ""
+
+    def remarks(self, series: dict[str, np.ndarray], weights: np.ndarray) -> str:
+        """A sentence that goes with the results, or none (arguments as of `window`)."""
+        return ""
+
     def window(self, series: dict[str, np.ndarray], weights: np.ndarray) -> dict[str, np.ndarray]:
         """Averages of each realization over a window: arrays (realizations, ...).
 
         Arguments: averages of every record (realizations, records, ...), and how long each record
         lasted. A scene of correlations in time overrides this.
         """
-        total = np.sum(weights, axis=1)
-
-        def mean(values):
-            share = weights.reshape(weights.shape + (1,) * (values.ndim - 2))
-            whole = total.reshape(total.shape + (1,) * (values.ndim - 2))
-            return np.sum(share * values, axis=1) / whole
-
-        return {name: mean(values) for name, values in series.items()}
+        return weighted_means(series, weights)
 
     def sample_densities(self, sample: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
         """Every name of `sampled` from the means of what `finish_chunk` sampled."""
         return sample
 
-    def axes(self) -> dict[str, Any]:
+    def axes(self, options: Options) -> dict[str, Any]:
         """Coordinates along every dimension of the observables: values, or (values, attributes)."""
         return {}
 
     def faults(self, record: Any) -> str:
         """A sentence if these records cannot be trusted, and what to change."""
         return ""
+
+
+def weighted_means(series: dict[str, np.ndarray], weights: np.ndarray) -> dict[str, np.ndarray]:
+    """Means over records of arrays (realizations, records, ...), weighted along these axes."""
+    total = np.sum(weights, axis=1)
+
+    def mean(values):
+        share = weights.reshape(weights.shape + (1,) * (values.ndim - 2))
+        whole = total.reshape(total.shape + (1,) * (values.ndim - 2))
+        return np.sum(share * values, axis=1) / whole
+
+    return {name: mean(values) for name, values in series.items()}
 
 
 def command_of(scene: type[AbstractScene]) -> str:

@@ -19,7 +19,7 @@ from ..collisions.bound import next_bound
 from ..collisions.meet import Collisions
 from ..fields import choice, count, number
 from ..gases import AbstractGas, ElasticHardSpheres
-from ..gases.base import conserves_energy, speed_exponent
+from ..gases.base import check_gas, conserves_energy, power_law, speed_exponent
 from ..measure import conduction
 from ..measure.observable import Observable
 from ..motion.cells import populations, totals
@@ -96,6 +96,7 @@ class FourierFlow(AbstractSlab):
         low=0.0,
         high=1.0,
         low_included=False,
+        example=0.05,
     )
     gravity: Any = number(
         "gravity g, positive towards the cold wall", "v0²/λ0", low=-1.0, high=1.0, default=0.0
@@ -111,6 +112,7 @@ class FourierFlow(AbstractSlab):
     layers: int = count("layers across the slab", default=100)
 
     def __check_init__(self):
+        check_gas(self.gas)
         if isinstance(self.gas, ElasticHardSpheres) or not conserves_energy(self.gas):
             raise ValueError("FourierFlow needs an elastic gas without drag: restitution = 1.")
         if speed_exponent(self.gas) is None:
@@ -137,7 +139,7 @@ class FourierFlow(AbstractSlab):
             )
         return options
 
-    def approach(self) -> Approach:
+    def approach(self, options: Options) -> Approach:
         """Diffusion of heat across the slab."""
         return of_conduction(self.cold_temperature, self.gravity, self.length)
 
@@ -260,5 +262,5 @@ class FourierFlow(AbstractSlab):
     def observables(self, means: dict) -> dict:
         """Profiles, and their reduced form."""
         profiles = conduction.profiles(means)
-        exponent = 1.0 - 0.5 * self.gas.speed_exponent()
+        exponent = 1.0 - 0.5 * power_law(self.gas)
         return profiles | conduction.reduced(profiles, self.gravity, self.length, exponent)

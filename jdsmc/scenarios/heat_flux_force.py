@@ -74,7 +74,7 @@ class HeatFluxForce(AbstractHomogeneous):
     monitored: ClassVar[tuple[str, ...]] = ("fourth", "flux3", "flux5")
 
     gas: AbstractGas
-    field: Any = number("strength λ0 ε of the force", low=0.0, high=2.0)
+    field: Any = number("strength λ0 ε of the force", low=0.0, high=2.0, example=0.025)
     scheme: Literal["exact", "paper"] = choice(
         "the force of a step: its exact flow around the collisions, or the paper's explicit step",
         ("exact", "paper"),
@@ -82,7 +82,7 @@ class HeatFluxForce(AbstractHomogeneous):
     )
     exponent: float | None = derived()
 
-    def __init__(self, gas, field, scheme="exact"):
+    def __init__(self, gas: AbstractGas, field, scheme: Literal["exact", "paper"] = "exact"):
         self.gas, self.field, self.scheme = gas, field, scheme
         self.exponent = scaling_exponent(gas)
 
@@ -97,7 +97,7 @@ class HeatFluxForce(AbstractHomogeneous):
 
     def has_steady_state(self) -> bool:
         """True if there is a heat flux to be measured."""
-        return self.field > 0
+        return bool(self.field > 0)
 
     def no_steady_state(self) -> str:
         """Without a field all responses are 0/0."""
@@ -106,7 +106,7 @@ class HeatFluxForce(AbstractHomogeneous):
             "collisions"
         )
 
-    def approach(self) -> Approach:
+    def approach(self, options: Options) -> Approach:
         """A few collisions per particle in a weak field."""
         return of_heat_flux_force(self.field)
 
@@ -197,9 +197,9 @@ class HeatFluxForce(AbstractHomogeneous):
         """The density of c_x."""
         return {"marginal_x": sample["marginal_x"] / BIN_WIDTH}
 
-    def axes(self) -> dict:
+    def axes(self, options: Options) -> dict:
         """Sonine orders beside those of every homogeneous gas."""
-        return super().axes() | {"sonine_order": np.arange(1, 4)}
+        return super().axes(options) | {"sonine_order": np.arange(1, 4)}
 
 
 RUNAWAY = 0.3

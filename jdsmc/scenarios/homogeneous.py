@@ -142,7 +142,7 @@ class AbstractHomogeneous(AbstractScene):
         halves = {"marginal_x": 0.5, "marginal_y": 0.5, "speed": 1.0}
         return {name: halves[name] / BIN_WIDTH * values for name, values in sample.items()}
 
-    def axes(self) -> dict:
+    def axes(self, options: Options) -> dict:
         """Speed classes and velocity bins."""
         return {
             "speed_class": np.arange(4),

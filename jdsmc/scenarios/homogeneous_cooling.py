@@ -63,7 +63,7 @@ class HomogeneousCooling(AbstractHomogeneous):
     gas: AbstractGas
     exponent: float | None = derived()
 
-    def __init__(self, gas):
+    def __init__(self, gas: AbstractGas):
         self.gas, self.exponent = gas, scaling_exponent(gas)
 
     def __check_init__(self):
@@ -83,7 +83,7 @@ class HomogeneousCooling(AbstractHomogeneous):
         """A gas with a speed of its own changes for ever."""
         return "its gas has a speed of its own, so that it changes for ever; give duration"
 
-    def approach(self) -> Approach:
+    def approach(self, options: Options) -> Approach:
         """A few collisions per particle."""
         return UNKNOWN if self.exponent is None else VELOCITIES
 
@@ -126,9 +126,9 @@ class HomogeneousCooling(AbstractHomogeneous):
     def averages(self, record: HomogeneousRecord) -> dict[str, np.ndarray]:
         """Averages over the particles at each record, the true temperature, the plain time."""
         averages = super().averages(record)
-        log_scale = record.log_scale
+        elapsed, log_scale = (np.asarray(x) for x in (record.elapsed, record.log_scale))
         if self.exponent is not None:
-            averages["plain_time"] = plain_time(record.elapsed, log_scale, self.exponent)
+            averages["plain_time"] = plain_time(elapsed, log_scale, self.exponent)
             del averages["instant_rate"]  # the steps know better
         with np.errstate(under="ignore"):
             averages["true_temperature"] = averages["temperature"] * np.exp(2.0 * log_scale)

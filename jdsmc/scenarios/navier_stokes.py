@@ -8,7 +8,7 @@ second order, T1 = T0 (1 + O(ε²)); s counts the copy's own τ(T1), else it alo
 """
 
 from dataclasses import replace
-from math import ceil
+from math import ceil, log, sqrt
 from typing import Any, ClassVar
 
 import equinox as eqx
@@ -56,6 +56,23 @@ collisions of their own; what two kicks share is the sample, whose fluxes decay 
 """
 
 
+NONLINEARITY = 0.125
+"""What is nonlinear in a kick biases a coefficient by this times ε²: 0.5% at 0.2, measured."""
+
+SLOWEST = 0.44
+"""Slowest decay of a response (1/τ0), that of κ at α = 0.3."""
+
+
+def kick_for(rtol: float) -> float:
+    """ε whose bias is half of a relative error at most; 0.2 if more is allowed."""
+    return min(0.2, sqrt(0.5 * rtol / NONLINEARITY))
+
+
+def duration_for(rtol: float) -> float:
+    """Reduced time (τ0) after which what is left to extrapolate is well below a relative error."""
+    return max(6.0, log(0.2 / rtol) / SLOWEST)
+
+
 class NavierStokes(AbstractScene):
     """A cooling gas whose sample is copied, kicked six ways and followed, again and again.
 
@@ -74,10 +91,22 @@ class NavierStokes(AbstractScene):
 
     gas: AbstractGas
     kick: Any = number(
-        "strength ε of a kick", "1/v0", low=0.0, high=1.0, low_included=False, default=0.14
+        "strength ε of a kick",
+        "1/v0",
+        low=0.0,
+        high=1.0,
+        low_included=False,
+        default=0.14,
+        example=kick_for,
     )
     duration: float = eqx.field(
-        default=8.0, static=True, metadata={"meaning": "reduced time for which a kick is followed"}
+        default=8.0,
+        static=True,
+        metadata={
+            "meaning": "reduced time for which a kick is followed",
+            "unit": "τ0",
+            "example": duration_for,
+        },
     )
 
     def __check_init__(self):
@@ -97,7 +126,7 @@ class NavierStokes(AbstractScene):
         steps = ceil(SPARE * self.duration / step) + 1
         return replace(options, plan=plan, time_step=step, steps=steps, records=1)
 
-    def approach(self) -> Approach:
+    def approach(self, options: Options) -> Approach:
         """None: what is sampled has relaxed before the first kick."""
         return Approach(0.0)
 
@@ -198,6 +227,6 @@ class NavierStokes(AbstractScene):
         """Coefficients, their tails, and the responses."""
         return coefficients(means)
 
-    def axes(self) -> dict:
+    def axes(self, options: Options) -> dict:
         """Times after a kick."""
         return {"lag": (self.times(), {"long_name": "reduced time s", "units": "τ0"})}

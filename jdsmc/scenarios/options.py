@@ -8,6 +8,7 @@ import numpy as np
 
 from .. import check
 from ..collisions.pairs import PairPlan, plan_pairs
+from ..types import Whole
 
 PARTICLES = 20_000
 """Default of a scene that has none of its own."""
@@ -58,7 +59,7 @@ class Options:
         time_step,
         splitting: str,
         dtype,
-        steps: int,
+        steps: Whole,
         samples: int = 1,
         in_space: bool = False,
     ) -> "Options":

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from ..gases import AbstractGas, ElasticHardSpheres
-from ..gases.base import speed_exponent
+from ..gases.base import check_gas, speed_exponent
 from ..motion.drive import held_at
 from ..types import Scalar, Velocity
 from ..units import INITIAL_TEMPERATURE
@@ -48,8 +48,9 @@ def scaling_exponent(gas: AbstractGas) -> float | None:
     return speed_exponent(gas)
 
 
-def check_without_drag(gas: AbstractGas, scene: str) -> None:
-    """Raise TypeError unless the gas is one without drag."""
+def check_without_drag(gas, scene: str) -> None:
+    """Raise TypeError unless it is a gas, and one without drag."""
+    check_gas(gas)
     if isinstance(gas, ElasticHardSpheres):
         raise TypeError(
             f"{scene} needs a gas without drag (a drag only changes the scale of velocities); use "

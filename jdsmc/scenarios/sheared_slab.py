@@ -95,7 +95,7 @@ class ShearedSlab(AbstractSlab):
     axis: ClassVar[str] = "y"
 
     gas: AbstractGas
-    shear_rate: Any = number("shear rate a", "1/τ0", low=0.0, high_included=False)
+    shear_rate: Any = number("shear rate a", "1/τ0", low=0.0, high_included=False, example=4.0)
     length: Any = number(
         "distance L of the planes", "λ0", low=0.0, high=1000.0, low_included=False, default=2.5
     )
@@ -115,13 +115,13 @@ class ShearedSlab(AbstractSlab):
 
     def has_steady_state(self) -> bool:
         """True if heating and cooling can balance: a > 0, and a gas that loses energy."""
-        return self.shear_rate > 0 and loses_energy(self.gas)
+        return bool(self.shear_rate > 0 and loses_energy(self.gas))
 
     def no_steady_state(self) -> str:
         """What a steady state needs."""
         return "it needs shear_rate > 0 and a gas that loses energy; else give duration, collisions"
 
-    def approach(self) -> Approach:
+    def approach(self, options: Options) -> Approach:
         """That of the kinetic model, and diffusion across the slab."""
         return of_sheared_slab(self.gas, self.shear_rate, self.length)
 
@@ -154,18 +154,10 @@ class ShearedSlab(AbstractSlab):
         self, key: Key, layer: Layer, velocity: Velocities, duration: Scalar, options: Options
     ) -> tuple[Velocities, Collisions, Scalar]:
         """Collisions within the layers, and for a frictional gas the drag around them."""
-        if isinstance(self.gas, ElasticHardSpheres):
-            return self.collide_with_drag(key, layer, velocity, duration, options)
-        return super().collide(key, layer, velocity, duration, options)
-
-    def collide_with_drag(
-        self, key: Key, layer: Layer, velocity: Velocities, duration: Scalar, options: Options
-    ) -> tuple[Velocities, Collisions, Scalar]:
-        """Drag for a share of the time before the collisions and a share after.
-
-        Elastic collisions change neither flow nor temperature of a layer, and drag only its
-        temperature: what the layers are like is needed once.
-        """
+        if not isinstance(self.gas, ElasticHardSpheres):
+            return super().collide(key, layer, velocity, duration, options)
+        # Elastic collisions change neither flow nor temperature of a layer, and drag only its
+        # temperature: what the layers are like is needed once.
         before, after = options.halves
         flow = LayerFlow.of(layer, velocity, self.layers)
         rate = friction(self.gas, flow)

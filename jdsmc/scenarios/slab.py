@@ -125,7 +125,7 @@ class AbstractSlab(AbstractScene):
             )
         return options
 
-    def axes(self) -> dict:
+    def axes(self, options: Options) -> dict:
         """Centres of the layers."""
         centres = (np.arange(self.layers) + 0.5) / self.layers * float(self.length)
         facts = {"long_name": f"position {self.axis}", "units": "λ0"}

@@ -43,7 +43,7 @@ class UniformShear(AbstractHomogeneous):
     monitored: ClassVar[tuple[str, ...]] = ("temperature", "xy", "xx", "fourth")
 
     gas: AbstractGas
-    shear_rate: Any = number("shear rate a", "1/τ0", low=0.0, high_included=False)
+    shear_rate: Any = number("shear rate a", "1/τ0", low=0.0, high_included=False, example=4.0)
 
     def step(
         self, key: Key, velocity: Velocity, majorant: Scalar, duration: Scalar, options: Options
@@ -76,13 +76,13 @@ class UniformShear(AbstractHomogeneous):
 
     def has_steady_state(self) -> bool:
         """True if heating and cooling can balance: a > 0, and a gas that loses energy."""
-        return self.shear_rate > 0 and loses_energy(self.gas)
+        return bool(self.shear_rate > 0 and loses_energy(self.gas))
 
     def no_steady_state(self) -> str:
         """What a steady state needs."""
         return "it needs shear_rate > 0 and a gas that loses energy; else give duration, collisions"
 
-    def approach(self) -> Approach:
+    def approach(self, options: Options) -> Approach:
         """That of the kinetic model."""
         return of_sheared_gas(self.gas, self.shear_rate)
 

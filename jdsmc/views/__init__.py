@@ -1,13 +1,51 @@
-"""How results are shown to people: tables and pictures."""
+"""How results are shown to people: tables and pictures.
 
-from . import generic
+`generic` shows any scene from what its observables say of themselves. The other modules, one a
+scene, add what is its own: theory beside the values, panels that belong together.
+"""
+
+from . import (
+    fourier_flow,
+    generic,
+    heat_flux_force,
+    homogeneous_cooling,
+    navier_stokes,
+    sheared_slab,
+    uniform_shear,
+)
+from .page import Page, as_html, as_text
+
+_SCENES = {
+    "FourierFlow": fourier_flow,
+    "HeatFluxForce": heat_flux_force,
+    "HomogeneousCooling": homogeneous_cooling,
+    "NavierStokes": navier_stokes,
+    "ShearedSlab": sheared_slab,
+    "UniformShear": uniform_shear,
+}
+
+
+def _view(result):
+    """What shows a scene: `generic` unless a module is there that finds all that it needs."""
+    view = _SCENES.get(result.attrs.get("scene", ""), generic)
+    there = {*map(str, result.series.data_vars), *map(str, result.steady.data_vars)}
+    return view if view.NEEDS.issubset(there) else generic
+
+
+def _page(result) -> Page:
+    return _view(result).page(result)
 
 
 def table(result) -> str:
-    """Steady values with errors, beside theory."""
-    return generic.table(result)
+    """Steady values with errors and units, beside theory where there is one."""
+    return as_text(_page(result))
+
+
+def html(result) -> str:
+    """The same as HTML, for a notebook."""
+    return as_html(_page(result))
 
 
 def draw(result):
-    """The matplotlib figure of a result."""
-    return generic.draw(result)
+    """The matplotlib figure of a result; it belongs to no window and needs no closing."""
+    return _view(result).draw(result)

@@ -1,79 +1,30 @@
-"""Table and pictures of gases under the heat-flux force, beside the Sonine approximations."""
-
-from functools import partial
+"""Gases under the heat-flux force, beside the Sonine approximations of hard spheres."""
 
 import numpy as np
+import xarray as xr
 
 from ..theory import sonine_elastic, transport
-from . import common
+from ..units import CONVERGED_ORDER
+from . import common, generic, pictures, velocities
+from .page import Page
 
+NEEDS = {"modified_conductivity", "sonine", "sonine_marginal"}
 ORDERS = (1, 2, 3)
-ELASTIC_ORDER = 10
-"""Sonine polynomials for the elastic values: converged to all digits shown."""
-ROWS = {
-    "a2": "fourth cumulant a2",
-    "a3": "sixth cumulant a3",
-    "collision_rate_ratio": "collision rate over local equilibrium",
+SMOOTHED = 15
+"""Windows over which a time series of Sonine coefficients is averaged: so many are shown."""
+LABELS = {
+    (name, k): f"Sonine coefficient b'{k + 1}, eq. ({equation})"
+    for name, equation in (("sonine", "3.10"), ("sonine_marginal", "3.12"))
+    for k in range(len(ORDERS))
 }
 
 
-def table(result) -> str:
-    """Steady values beside theory: a column for one gas, a row for each of a sweep."""
-    return common.table(result, lambda: _single(result), lambda: _columns(result))
+def has_theory(result) -> bool:
+    """True of smooth inelastic hard spheres."""
+    return common.gas_models(result.attrs) == {"InelasticHardSpheres"}
 
 
-def _single(result) -> list[str]:
-    steady, alpha = result.to_xarray().to_dataset(), result.attrs["parameter_restitution"]
-    field = result.attrs["parameter_field"]
-    heading = f"{f'steady value at field ε* = {field:g}':40s} {'jdsmc':>16s} {'first Sonine':>13s}"
-    lines = [f"{heading} {'modified':>9s}{'  converged' if alpha == 1 else ''}"]
-    if not np.isnan(steady["conductivity_ratio"]):
-        lines += _response(steady, alpha)
-    for name, label in ROWS.items():
-        lines.append(f"{label:40s} {common.estimate(steady, name):>16s}")
-    return lines
-
-
-def _response(steady, alpha: float) -> list[str]:
-    """Rows of what is odd in the velocity; theory is that of a weak field."""
-    first, modified = _conductivities(alpha)
-    elastic = sonine_elastic.conductivity_ratio(ELASTIC_ORDER)
-    known = _known(first, modified, elastic, alpha)
-    label = "thermal conductivity κ'/κ0"
-    lines = [f"{label:40s} {common.estimate(steady, 'conductivity_ratio'):>16s} {known}"]
-    scale, exact = transport.elastic_sonine_coefficient(), _elastic_coefficients()
-    for name, equation in (("sonine", "3.10"), ("sonine_marginal", "3.12")):
-        for k, order in enumerate(ORDERS):
-            # a first Sonine approximation is one of the first coefficient only
-            both = (first * scale, modified * scale) if order == 1 else (None, None)
-            label = f"Sonine coefficient b'{order}, eq. ({equation})"
-            known = _known(*both, exact[k], alpha)
-            lines.append(f"{label:40s} {common.estimate(steady, name, k):>16s} {known}")
-    return lines
-
-
-def _known(first, modified, elastic, alpha: float) -> str:
-    cells = [f"{'' if x is None else f'{x:.4g}':>{w}s}" for x, w in ((first, 13), (modified, 9))]
-    return " ".join([*cells, *([f"{elastic:>10.4g}"] if alpha == 1 else [])]).rstrip()
-
-
-def _columns(result) -> dict:
-    fixed = result.attrs["parameter_restitution"]
-
-    def theory(point, which: int) -> str:
-        alpha = point["restitution"].values if "restitution" in point.coords else fixed
-        return f"{_conductivities(alpha)[which]:.4g}"
-
-    sonine = {f"b'{k}": partial(common.estimate, name="sonine", order=k - 1) for k in ORDERS}
-    return {
-        "κ'/κ0": partial(common.estimate, name="conductivity_ratio"),
-        "first Sonine": partial(theory, which=0),
-        "modified": partial(theory, which=1),
-        **sonine,
-    }
-
-
-def _conductivities(restitution) -> tuple:
+def conductivities(restitution) -> tuple:
     """κ'/κ0 of the first Sonine approximation, the standard and the modified one."""
     return (
         transport.first_sonine(restitution).modified_conductivity,
@@ -81,96 +32,156 @@ def _conductivities(restitution) -> tuple:
     )
 
 
+def page(result) -> Page:
+    """Steady values beside theory, which is that of a weak field."""
+    steady, dims = result.steady, common.dimensions(result)
+    if not result.is_steady:
+        return generic.page(result)
+    if not dims:
+        theory = _theory(float(result.attrs["parameter_restitution"])) if has_theory(result) else {}
+        heading = f"steady value at field ε* = {common.short(result.attrs['parameter_field'])}"
+        return generic.page(result, theory, labels=LABELS, heading=heading)
+    columns = generic.of_observables(steady, ["modified_conductivity"])
+    if has_theory(result):
+        for which, name in enumerate(("first Sonine", "modified")):
+            columns[name] = lambda here, which=which: _theory_at(result, here, which)
+    columns |= {f"b'{k}": generic.of_component("sonine", k - 1) for k in ORDERS}
+    return generic.page(result, columns=columns)
+
+
+def _theory_at(result, here: xr.Dataset, which: int) -> str:
+    alpha = common.parameter(result, here, "restitution")
+    return f"{float(conductivities(alpha)[which]):.4g}"
+
+
+def _theory(alpha: float) -> generic.Theory:
+    """A first Sonine approximation has the first coefficient only; all are known at α = 1."""
+    first, modified = conductivities(alpha)
+    scale = transport.elastic_sonine_coefficient()
+
+    def cell(value):
+        def shown(name, index):
+            if name == "modified_conductivity":
+                return f"{value:.4g}"
+            return f"{value * scale:.4g}" if (name, index) in LABELS and index == 0 else ""
+
+        return shown
+
+    def converged(name, index):
+        if name == "modified_conductivity":
+            return f"{sonine_elastic.conductivity_ratio(CONVERGED_ORDER):.4g}"
+        return f"{_elastic_coefficients()[index]:.4g}" if (name, index) in LABELS else ""
+
+    columns: generic.Theory = {"first Sonine": cell(first), "modified": cell(modified)}
+    return columns | ({"converged": converged} if alpha == 1 else {})
+
+
 def _elastic_coefficients() -> np.ndarray:
-    return sonine_elastic.sonine_coefficients(ELASTIC_ORDER)[: len(ORDERS)]
+    return sonine_elastic.sonine_coefficients(CONVERGED_ORDER)[: len(ORDERS)]
 
 
 def draw(result):
     """κ'/κ0 and b'_k: against time, or for a steady sweep against restitution (or field)."""
-    import matplotlib.pyplot as plt  # noqa: PLC0415 - slow to import
-
-    dims = result.series["conductivity_ratio"].dims[:-1]
-    figure, panels = plt.subplots(2, 1, figsize=(6.4, 7), sharex=True, layout="constrained")
-    if dims and result.is_steady:
-        _draw_sweep(panels, result, dims)
+    dims = common.dimensions(result)
+    with_velocities = velocities.sampled(result) is not None
+    figure, panels = pictures.grid(2 + with_velocities, 3 if with_velocities else 2)
+    x = pictures.across(result.steady, dims) if result.is_steady else ""
+    spread = pictures.SPREAD
+    if x:
+        _draw_sweep(panels, result, dims, x)
     else:
-        _draw_series(panels, result, dims)
-    panels[0].set_ylabel("thermal conductivity κ'/κ0")
-    panels[1].set_ylabel("Sonine coefficients b'k")
-    for panel in panels:
-        panel.legend(fontsize=8, frameon=False)
-    fixed = (("α", "parameter_restitution"), ("ε*", "parameter_field"))
-    numbers = [f"{s} = {result.attrs[k]:g}" for s, k in fixed if np.ndim(result.attrs[k]) == 0]
-    title = ", ".join(["Gas under the heat-flux force", *numbers])
-    size, spread = common.sizes(result.attrs), "bars and bands: two standard errors"
-    panels[0].set_title(f"{title}; {size}\n{spread}", fontsize=10)
-    return figure
+        spread = _draw_series(panels, result, dims)
+    panels[0].set_ylabel("modified conductivity κ'/κ0")
+    panels[1].set_ylabel("Sonine coefficients b'_k")
+    if with_velocities:
+        velocities.draw(panels[2], result, "velocity")
+        panels[2].set(xlabel="c_x", ylabel="density of c_x")
+    return pictures.finish(figure, panels, common.title(result, "Heat-flux force"), spread)
 
 
-def _draw_series(panels, result, dims) -> None:
-    """Approach to the steady state; steady values, if there are, as dotted lines."""
-    series, top, bottom = result.series, panels[0], panels[1]
-    for point in common.some_points(series, dims):
-        here = series.isel(point)
-        time, label = here["time"].values, common.label(series, point)
-        value, error = (here[f"conductivity_ratio{s}"].values for s in ("", "_error"))
-        common.curve(top, time, value, error, label or "κ'(t)/κ0")
+def _draw_series(panels, result, dims) -> str:
+    """Approach to the steady state: κ' as it is, the noisy b'_k averaged over records."""
+    series, (top, bottom) = result.series, panels[:2]
+    pictures.against_time(top, result, "modified_conductivity")
+    if has_theory(result) and not dims:
+        first, modified = conductivities(float(result.attrs["parameter_restitution"]))
+        top.axhline(first, color="k", ls="-", lw=1, label="first Sonine")
+        top.axhline(modified, color="k", ls="-.", lw=1, label="modified first Sonine")
+    length = max(1, series.sizes["sample"] // SMOOTHED)
+    for number, point in enumerate(common.some_points(series, dims)):
+        here, label = series.isel(point), common.label(series, point)
+        time = smoothed(here["time"].values, length)
         for k, order in enumerate(ORDERS):
-            for name, style in (("sonine", "-"), ("sonine_marginal", "--")):
-                value, error = (here[f"{name}{s}"].values[:, k] for s in ("", "_error"))
-                text = f"b'{order} {label}" if style == "-" else ""
-                common.curve(bottom, time, value, error, text, ls=style, color=f"C{k}")
-    bottom.plot([], [], "k--", lw=1.2, label="eq. (3.12)")
-    bottom.set_xlabel("time t/τ0 (of the gas held at T0)")
-    bottom.set_ylim(*_limits(series["sonine"].values, series["sonine_error"].values))
-    if result.is_steady and not dims:
-        top.axhline(result["conductivity_ratio"].value, color="k", ls=":", lw=1, label="steady")
-        for value in np.asarray(result["sonine"].value):
-            bottom.axhline(value, color="k", ls=":", lw=1)
+            value = smoothed(here["sonine"].values[:, k], length)
+            style = ("-", "--", "-.")[k] if dims else "-"
+            text = f"b'{order}" if not dims else label if k == 0 else ""
+            color = f"C{number if dims else k}"
+            bottom.plot(time, value, lw=1.2, color=color, ls=style, label=text or None)
+    if dims:
+        for k, order in enumerate(ORDERS):
+            bottom.plot([], [], "k", ls=("-", "--", "-.")[k], lw=1.2, label=f"b'{order}")
+    elif result.is_steady:
+        for k in range(len(ORDERS)):
+            value, error = (result.steady[f"sonine{s}"].values[k] for s in ("", "_error"))
+            bottom.axhspan(value - 2 * error, value + 2 * error, color=f"C{k}", alpha=0.25, lw=0)
+    bottom.set_xlabel("time t (τ0) of the gas held at T0")
+    top.set_xlabel("time t (τ0) of the gas held at T0")
+    lines = f"lines of b'_k: averages over {length} records" if length > 1 else "b'_k: every record"
+    return f"{pictures.SPREAD}; {lines}, bands of the steady values"
 
 
-def _draw_sweep(panels, result, dims) -> None:
+def smoothed(values: np.ndarray, length: int) -> np.ndarray:
+    """Averages over consecutive windows; what is left over at the end is dropped."""
+    windows = len(values) // length
+    return values[: windows * length].reshape(windows, length).mean(axis=1)
+
+
+def _draw_sweep(panels, result, dims, x: str) -> None:
     """Steady values against restitution, or against the field where that alone is swept."""
-    steady, (top, bottom) = result.to_xarray().to_dataset(), panels
-    across = "restitution" if "restitution" in dims else dims[0]
-    others = [name for name in dims if name != across]
-    x = steady[across].values
+    steady, (top, bottom) = result.steady, panels[:2]
+    pictures.against_sweep(top, steady, dims, x, "modified_conductivity")
+    others = [name for name in dims if name != x]
     for number, point in enumerate(common.points(steady, others)):
         here, label = steady.isel(point), common.label(steady, point)
-        value, error = (here[f"conductivity_ratio{s}"].values for s in ("", "_error"))
-        common.bars(top, x, value, error, number, label or "jdsmc")
         for k, order in enumerate(ORDERS):
             value, error = (here[f"sonine{s}"].isel(sonine_order=k).values for s in ("", "_error"))
-            text = f"b'{order} {label}".strip()
-            common.bars(bottom, x, value, error, number if others else k, text, color=f"C{k}")
+            text = f"b'{order}, {label}" if label else f"b'{order}"
+            marker = {"fmt": pictures.MARKERS[number % len(pictures.MARKERS)]}
+            pictures.bars(bottom, steady[x].values, value, error, k, text, **marker)
     bottom.set_ylim(*_limits(steady["sonine"].values, steady["sonine_error"].values))
-    if across == "restitution":
-        _theory_lines(top, bottom, np.linspace(x.min(), x.max(), 100))
-        bottom.set_xlabel("restitution α")
-    else:  # theory is that of a weak field
-        alpha = np.full(2, result.attrs["parameter_restitution"])
-        _theory_lines(top, bottom, alpha, np.array([x.max(), 0.0]))
-        bottom.set_xlabel("field ε*")
+    bottom.set_xlabel(common.with_unit(steady, x))
+    if has_theory(result):
+        _theory_lines(top, bottom, result, steady, x)
 
 
 def _limits(value, error) -> tuple[float, float]:
     """A range that holds what is known to better than 1, and zero and the elastic values."""
-    known = np.where(error < 0.5, value, 0.0)
-    spread = np.where(error < 0.5, 2 * error, 0.0)
+    fine = error < 0.5
+    known, spread = np.where(fine, value, 0.0), np.where(fine, 2 * error, 0.0)
     return min(-1.0, np.min(known - spread) - 0.1), max(2.3, np.max(known + spread) + 0.1)
 
 
-def _theory_lines(top, bottom, alpha, x=None) -> None:
+def _theory_lines(top, bottom, result, steady: xr.Dataset, x: str) -> None:
     """Lines of the first Sonine approximations; stars where the elastic values are known."""
-    first, modified = _conductivities(alpha)
+    values = steady[x].values
+    fine = np.linspace(values.min(), values.max(), 100)
+    if x == "restitution":
+        alphas = [fine]
+    else:  # theory is that of a weak field, at every restitution
+        fine = np.array([0.0, values.max()])
+        each = np.ravel(common.parameter(result, steady, "restitution"))
+        alphas = [np.full(2, alpha) for alpha in each]
     scale = transport.elastic_sonine_coefficient()
-    x = alpha if x is None else x
-    for values, style, name in ((first, "-", "first Sonine"), (modified, "--", "modified first")):
-        top.plot(x, values, f"k{style}", lw=1, label=name)
-        bottom.plot(x, scale * values, f"k{style}", lw=1)
-    if alpha[-1] == 1:
-        ratio = sonine_elastic.conductivity_ratio(ELASTIC_ORDER)
-        known = np.array([[ratio], *_elastic_coefficients()[:, None]])
-        end = x[-1:]
-        top.plot(end, known[0], "k*", ms=9, mfc="none", label=f"converged: {ratio:.6f}")
-        bottom.plot(np.repeat(end, len(ORDERS)), known[1:, 0], "k*", ms=9, mfc="none")
+    for number, alpha in enumerate(alphas):
+        for known, style, name in zip(
+            conductivities(alpha), ("-", "--"), ("first Sonine", "modified first"), strict=True
+        ):
+            text = None if number else name
+            top.plot(fine, known, f"k{style}", lw=1, label=text)
+            bottom.plot(fine, scale * known, f"k{style}", lw=1, label=text)
+        if alpha[-1] == 1:
+            ratio = sonine_elastic.conductivity_ratio(CONVERGED_ORDER)
+            end = fine[-1:] if x == "restitution" else fine[:1]
+            top.plot(end, [ratio], "k*", ms=9, mfc="none", label=f"converged: {ratio:.6f}")
+            stars = np.repeat(end, len(ORDERS)), _elastic_coefficients()
+            bottom.plot(*stars, "k*", ms=9, mfc="none", label="converged")

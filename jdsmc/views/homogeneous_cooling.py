@@ -1,49 +1,29 @@
-"""Table and pictures of freely cooling gases, beside the first Sonine approximation."""
-
-from functools import partial
+"""Freely cooling gases: Haff's law and the first Sonine approximation where they hold."""
 
 import numpy as np
+import xarray as xr
 
 from ..theory import homogeneous_cooling as theory
-from . import common
+from . import common, generic, pictures, velocities
+from .page import Page
 
-ROWS = {
-    "a2": "fourth cumulant a2",
-    "a3": "sixth cumulant a3",
-    "relative_speed_cubed": "relative speed ⟨V12³⟩/⟨V12³⟩0",
-    "relative_speed_cubed_collisional": "  the same from the energy lost",
-    "collision_rate_ratio": "collision rate over local equilibrium",
-}
+NEEDS = {"temperature", "a2", "a3", "relative_speed_cubed", "collision_rate_ratio"}
+DIMENSIONS = {"InelasticHardSpheres": 3, "InelasticHardDisks": 2}
+"""Of the gases whose theory is known."""
+SWEEP = ("a2", "a3", "relative_speed_cubed", "collision_rate_ratio")
 
 
-def table(result) -> str:
-    """Steady values beside theory: a column for one gas, a row for each of a sweep."""
-    return common.table(result, lambda: _single(result), lambda: _columns(result))
+def dimension_of(result) -> int:
+    """Of the velocities of a gas with theory, 0 for another."""
+    found = {DIMENSIONS.get(one, 0) for one in common.gas_models(result.attrs)}
+    return found.pop() if len(found) == 1 else 0
 
 
-def _single(result) -> list[str]:
-    steady = result.to_xarray().to_dataset()
-    model = _model(result.attrs["parameter_restitution"])
-    lines = [f"{'steady value':40s} {'jdsmc':>16s} {'first Sonine':>13s}"]
-    for name, label in ROWS.items():
-        if not np.isnan(steady[name]):
-            known = f"{model[name]:.4g}" if name in model else ""
-            lines.append(f"{label:40s} {common.estimate(steady, name):>16s} {known:>13s}")
-    for order in range(steady.sizes["speed_class"]):
-        label = f"particles with {common.speed_class(order)}, over Maxwell"
-        lines.append(f"{label:40s} {common.estimate(steady, 'speed_ratio', order):>16s}")
-    return lines
-
-
-def _columns(result) -> dict:
-    names = ("a2", "a3", "relative_speed_cubed", "collision_rate_ratio")
-    columns = {name: partial(common.estimate, name=name) for name in names}
-    return {"a2 (theory)": lambda point: f"{theory.kurtosis(point['restitution']):.4g}"} | columns
-
-
-def _model(restitution) -> dict:
+def model(restitution, dimension: int) -> dict:
     """First Sonine approximation, linear in a2; it has no a3."""
-    a2 = theory.kurtosis(restitution)
+    a2 = theory.kurtosis(restitution, dimension)
+    if dimension != 3:
+        return {"a2": a2}
     cubed = 1 + 3 / 16 * a2
     return {
         "a2": a2,
@@ -53,54 +33,79 @@ def _model(restitution) -> dict:
     }
 
 
+def page(result) -> Page:
+    """Steady values beside theory; for a sweep the cumulants."""
+    dims, dimension, steady = common.dimensions(result), dimension_of(result), result.steady
+    if not result.is_steady or not dimension:
+        return generic.page(result)
+
+    def known(here: xr.Dataset, name: str) -> str:
+        found = model(common.parameter(result, here, "restitution"), dimension)
+        return f"{float(found[name]):.4g}" if name in found else ""
+
+    if not dims:
+        cell = {"first Sonine": lambda name, k: known(steady, name) if k is None else ""}
+        return generic.page(result, cell)
+    columns = {"a2 (theory)": lambda here: known(here, "a2")}
+    return generic.page(result, columns=columns | generic.of_observables(steady, SWEEP))
+
+
 def draw(result):
-    """T/T0 against time with Haff's law, and a2: against collisions, or restitution in a sweep."""
-    import matplotlib.pyplot as plt  # noqa: PLC0415 - slow to import
-
-    series, attrs = result.series, result.attrs
-    dims = series["temperature"].dims[:-1]
-    figure, (top, bottom) = plt.subplots(2, 1, figsize=(6.4, 7), layout="constrained")
-    for point in common.some_points(series, dims):
-        alpha = float(series["restitution"].values[point["restitution"]] if dims else _alpha(attrs))
-        _temperature(top, series.isel(point), alpha, f"α = {alpha:g}")
-        if not (dims and result.is_steady):
-            _cumulant(bottom, series.isel(point), alpha)
-    if dims and result.is_steady:
-        _cumulants(bottom, result.to_xarray().to_dataset())
-    top.plot([], [], "k:", lw=1, label="Haff's law")
-    top.set(xscale="log", yscale="log", xlabel="time t/τ0", ylabel="temperature T/T0")
-    for panel in (top, bottom):
-        panel.legend(fontsize=8, frameon=False)
-    top.set_title(
-        f"Freely cooling gas; {common.sizes(attrs)}\nbands: two standard errors", fontsize=10
-    )
-    return figure
-
-
-def _alpha(attrs) -> float:
-    return attrs["parameter_restitution"]
+    """T/T0 against time, a2 against collisions or restitution, and velocities."""
+    dims, dimension, series = common.dimensions(result), dimension_of(result), result.series
+    with_velocities = velocities.sampled(result) is not None
+    x = pictures.across(result.steady, dims) if result.is_steady else ""
+    figure, panels = pictures.grid(4 if with_velocities else 2, 2)
+    _temperature(panels[0], result, dimension)
+    if x:
+        _cumulants(panels[1], result, dims, x, dimension)
+    else:
+        pictures.against_time(panels[1], result, "a2", "collisions")
+        if dimension:
+            for point in common.some_points(series, dims):
+                here = series.isel(point)
+                alpha = common.parameter(result, here, "restitution")
+                a2 = theory.kurtosis(alpha, dimension)
+                panels[1].axhline(a2, color="k", ls=":", lw=1.2, label="first Sonine")
+    if with_velocities:
+        found = velocities.kinds(result.distribution, dims)
+        for panel, along in zip(panels[2:], found, strict=False):
+            velocities.draw(panel, result, along)
+    return pictures.finish(figure, panels, common.title(result, "Homogeneous cooling"))
 
 
-def _temperature(panel, series, alpha: float, label: str) -> None:
+def _temperature(panel, result, dimension: int) -> None:
     """From the second record on: the first is at time zero, which has no logarithm."""
-    time, value, error = (
-        series[name].values[1:] for name in ("time", "temperature", "temperature_error")
-    )
-    common.curve(panel, time, value, error, label, lw=3, alpha=0.5)
-    panel.plot(time, theory.haff_temperature(time, alpha), "k:", lw=1)
+    series, dims = result.series.isel(sample=slice(1, None)), common.dimensions(result)
+    for number, point in enumerate(common.some_points(series, dims)):
+        here = series.isel(point)
+        time, value, error = (
+            here[key].values for key in ("time", "temperature", "temperature_error")
+        )
+        style = {"color": f"C{number}", "lw": 3, "alpha": 0.5}
+        pictures.curve(panel, time, value, error, common.label(series, point), **style)
+        if dimension:
+            alpha = common.parameter(result, here, "restitution")
+            law = theory.haff_temperature(time, alpha, dimension=dimension)
+            panel.plot(time, law, "k:", lw=1.2, label=None if number else "Haff's law")
+    panel.set(xscale="log", xlabel="time t (τ0)", ylabel="temperature T/T0")
+    known = series["temperature"].values
+    if np.nanmin(known) < 0.5:
+        panel.set_yscale("log")
 
 
-def _cumulant(panel, series, alpha: float) -> None:
-    s, value, error = (series[name].values for name in ("collisions", "a2", "a2_error"))
-    common.curve(panel, s, value, error, f"a2, α = {alpha:g}")
-    panel.axhline(theory.kurtosis(alpha), color="k", ls=":", lw=1)
-    panel.set(xlabel="collisions per particle s", ylabel="fourth cumulant a2")
-
-
-def _cumulants(panel, steady) -> None:
-    alpha = steady["restitution"].values
-    fine = np.linspace(alpha.min(), alpha.max(), 100)
-    for number, name in enumerate(("a2", "a3")):
-        common.bars(panel, alpha, steady[name].values, steady[f"{name}_error"].values, number, name)
-    panel.plot(fine, theory.kurtosis(fine), "k:", lw=1, label="a2, first Sonine")
-    panel.set(xlabel="restitution α", ylabel="steady cumulants")
+def _cumulants(panel, result, dims, x: str, dimension: int) -> None:
+    steady = result.steady
+    values = steady[x].values
+    fine = np.linspace(values.min(), values.max(), 100)
+    others = [d for d in dims if d != x]
+    for number, point in enumerate(common.points(steady, others)):
+        here, label = steady.isel(point), common.label(steady, point)
+        for k, name in enumerate(("a2", "a3")):
+            text = f"{name}, {label}" if label else name
+            value, error = here[name].values, here[f"{name}_error"].values
+            pictures.bars(panel, values, value, error, 2 * number + k, text)
+    if dimension and x == "restitution":
+        text = "a2, first Sonine"
+        panel.plot(fine, theory.kurtosis(fine, dimension), "k:", lw=1.2, label=text)
+    panel.set(xlabel=common.with_unit(steady, x), ylabel="steady cumulants")

@@ -1,80 +1,113 @@
-"""Table and picture of the Navier-Stokes coefficients, beside the Sonine approximations."""
-
-from functools import partial
+"""The Navier-Stokes coefficients, beside the Sonine approximations of hard spheres."""
 
 import numpy as np
 
 from ..theory import sonine_elastic
 from ..theory.transport import first_sonine, modified_first_sonine
-from . import common
+from ..units import CONVERGED_ORDER
+from . import common, generic, pictures
+from .page import Page
 
-ROWS = {
-    "modified_conductivity": "modified conductivity κ'/κ0",
-    "conductivity": "conductivity κ/κ0",
-    "density_coefficient": "density coefficient nμ/(Tκ0)",
-    "viscosity": "viscosity η/η0",
-}
-ELASTIC_ORDER = 10
-"""Sonine polynomials for the elastic values: converged to all digits shown."""
+COEFFICIENTS = ("modified_conductivity", "conductivity", "density_coefficient", "viscosity")
+NEEDS = {*COEFFICIENTS, "running_conductivity"}
+APPROXIMATIONS = {"first Sonine": first_sonine, "modified first": modified_first_sonine}
 
 
-def table(result) -> str:
-    """Coefficients beside theory: a column for one gas, a row for each of a sweep."""
-    steady = result.to_xarray().to_dataset()
-    dims = steady["conductivity"].dims
-    lines = common.sweep_rows(steady, dims, _columns(steady, result)) if dims else _single(result)
-    return "\n".join([*lines, f"Ended because {result.attrs['stopped']}."])
+def has_theory(result) -> bool:
+    """True of smooth inelastic hard spheres."""
+    return common.gas_models(result.attrs) == {"InelasticHardSpheres"}
 
 
-def _single(result) -> list[str]:
-    steady, alpha = result.to_xarray().to_dataset(), result.attrs["parameter_restitution"]
-    heading = f"{'transport coefficient':32s} {'jdsmc':>14s} {'first Sonine':>13s} {'modified':>9s}"
-    lines = [heading + ("  converged" if alpha == 1 else "")]
-    for name, label in ROWS.items():
-        known = [getattr(theory(alpha), name) for theory in (first_sonine, modified_first_sonine)]
-        cells = f"{known[0]:>13.4g} {known[1]:>9.4g}"
-        cells += f" {_elastic(name):>10.5g}" if alpha == 1 else ""
-        lines.append(f"{label:32s} {common.estimate(steady, name):>14s} {cells}")
-    return [*lines, f"{'fourth cumulant a2':32s} {common.estimate(steady, 'a2'):>14s}"]
+def known(restitution, name: str) -> tuple:
+    """A coefficient of both first Sonine approximations."""
+    return tuple(vars(theory(restitution))[name] for theory in APPROXIMATIONS.values())
 
 
-def _columns(steady, result) -> dict:
-    """Every coefficient and, where restitution is known, its modified first Sonine value."""
-
-    def theory(name, here):
-        alpha = here.get("restitution", result.attrs["parameter_restitution"])
-        return f"{float(getattr(modified_first_sonine(np.asarray(alpha)), name)):.4g}"
-
-    columns = {}
-    for name, label in ROWS.items():
-        symbol = label.split()[-1]
-        columns[symbol] = partial(common.estimate, name=name)
-        columns[f"{symbol} Sonine"] = partial(theory, name)
-    return columns
-
-
-def _elastic(name: str) -> float:
+def elastic(name: str) -> float:
+    """The converged value at α = 1."""
     if name == "density_coefficient":
         return 0.0
     if name == "viscosity":
-        return sonine_elastic.viscosity_ratio(ELASTIC_ORDER)
-    return sonine_elastic.conductivity_ratio(ELASTIC_ORDER)
+        return sonine_elastic.viscosity_ratio(CONVERGED_ORDER)
+    return sonine_elastic.conductivity_ratio(CONVERGED_ORDER)
+
+
+def page(result) -> Page:
+    """Coefficients beside theory: a column for one gas, a row for each of a sweep."""
+    steady, theory = result.steady, has_theory(result)
+    if not result.is_steady:
+        return generic.page(result)
+    if not common.dimensions(result):
+        columns = _theory(float(result.attrs["parameter_restitution"])) if theory else {}
+        return generic.page(result, columns, heading="transport coefficient")
+
+    def modified(here, name) -> str:
+        return f"{float(known(common.parameter(result, here, 'restitution'), name)[1]):.4g}"
+
+    columns = {}
+    for name in COEFFICIENTS:
+        columns |= generic.of_observables(steady, [name])
+        if theory:
+            heading = f"{common.symbol(steady, name)} Sonine"
+            columns[heading] = lambda here, name=name: modified(here, name)
+    return generic.page(result, columns=columns)
+
+
+def _theory(alpha: float) -> generic.Theory:
+    def cell(which):
+        def shown(name, index):
+            return f"{float(known(alpha, name)[which]):.4g}" if name in COEFFICIENTS else ""
+
+        return shown
+
+    columns = {"first Sonine": cell(0), "modified": cell(1)}
+    if alpha == 1:
+        columns["converged"] = lambda name, index: (
+            f"{elastic(name):.5g}" if name in COEFFICIENTS else ""
+        )
+    return columns
 
 
 def draw(result):
-    """Running integrals against reduced time: where they saturate, and how noise grows."""
-    import matplotlib.pyplot as plt  # noqa: PLC0415 - slow to import
+    """Running integrals, where they saturate and how noise grows; for a sweep, coefficients."""
+    if not result.is_steady:
+        return generic.draw(result)
+    steady, dims = result.steady, common.dimensions(result)
+    x = pictures.across(steady, dims)
+    figure, panels = pictures.grid(8 if x else 4, 4 if x else 2, 3.6 if x else 4.2)
+    if x:
+        for panel, name in zip(panels, COEFFICIENTS, strict=False):
+            pictures.against_sweep(panel, steady, dims, x, name)
+            _theory_lines(panel, result, x, name)
+    for panel, name in zip(panels[-4:], COEFFICIENTS, strict=True):
+        pictures.profile(panel, steady, dims, f"running_{name}")
+        panel.set(xlabel="upper end s of the integral (τ0)")
+        panel.set_ylabel(common.symbol(steady, name))
+        if not dims:
+            value, error = (float(steady[key]) for key in (name, f"{name}_error"))
+            panel.axhspan(value - 2 * error, value + 2 * error, color="C1", alpha=0.3, lw=0)
+            panel.axhline(value, color="C1", lw=1, label="with what is extrapolated")
+            if has_theory(result):
+                _levels(panel, float(result.attrs["parameter_restitution"]), name)
+    return pictures.finish(figure, panels, common.title(result, "Impulse response"))
 
-    series = result.series
-    dims = series["conductivity"].dims[:-1]
-    figure, panels = plt.subplots(2, 2, figsize=(9, 6), sharex=True, layout="constrained")
-    for panel, (name, label) in zip(panels.ravel(), ROWS.items(), strict=True):
-        for point in common.some_points(series, dims):
-            here = series.isel(point)
-            values, error = here[name].values, here[f"{name}_error"].values
-            common.curve(panel, series["time"], values, error, common.label(series, point))
-        panel.set(ylabel=label, xlabel="upper end of the integral s/τ0")
-    if dims:
-        panels[0, 0].legend()
-    figure.suptitle(f"Impulse response, {common.sizes(result.attrs)}")
-    return figure
+
+def _levels(panel, alpha: float, name: str) -> None:
+    for value, text, style in zip(known(alpha, name), APPROXIMATIONS, ("-", "--"), strict=True):
+        panel.axhline(float(value), color="k", ls=style, lw=1, label=text)
+
+
+def _theory_lines(panel, result, x: str, name: str) -> None:
+    """Lines against restitution; levels where something else is swept at one restitution."""
+    alpha = result.attrs.get("parameter_restitution")
+    if not has_theory(result) or (x != "restitution" and np.ndim(alpha)):
+        return
+    if x != "restitution":
+        _levels(panel, float(alpha), name)
+        return
+    values = result.steady[x].values
+    fine = np.linspace(values.min(), values.max(), 100)
+    for line, text, style in zip(known(fine, name), APPROXIMATIONS, ("-", "--"), strict=True):
+        panel.plot(fine, line, f"k{style}", lw=1, label=text)
+    if values.max() == 1:
+        panel.plot([1.0], [elastic(name)], "k*", ms=9, mfc="none", label="converged")

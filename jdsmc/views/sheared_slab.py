@@ -1,134 +1,142 @@
-"""Table and pictures of a sheared slab: approach to uniform shear, steady stresses."""
-
-from functools import partial
+"""A sheared slab: approach to uniform shear, steady stresses beside the BGK kinetic model."""
 
 import numpy as np
+import xarray as xr
 
-from ..results.result import format_estimate
-from ..theory import bgk_shear_flow
-from . import common
+from ..estimate import format_estimate
+from . import common, generic, pictures, uniform_shear
+from .page import Block, Page
 
-ROWS = {
-    "mean_temperature": "temperature T/T0",
-    "reduced_shear_rate": "reduced shear rate a*",
-    "shear_stress": "shear stress -Pxy/nT",
-    "normal_stress_xy": "normal stress (Pxx-Pyy)/nT",
-    "normal_stress_zy": "normal stress (Pzz-Pyy)/nT",
-    "reduced_viscosity": "reduced viscosity η*",
-}
+SWEEP = ("mean_temperature", *uniform_shear.STRESSES, "reduced_viscosity")
 UNEVEN = {
     "density": "density n/n̄, from 1",
     "temperature": "temperature T/T̄, from 1",
     "velocity_x": "flow over aL, from y/L - 1/2",
 }
+PROFILES = {"velocity_x": "u_x/aL", "density": "n/n̄", "temperature": "T/T̄"}
+NEEDS = {*SWEEP, *UNEVEN, "collisions"}
 INSTANTS = (0.0, 0.1, 0.4, 1.0, 2.0, 4.0)
 """Collisions per particle at which profiles are drawn."""
 
 
-def table(result) -> str:
-    """Steady values beside the BGK model, and how far the steady profiles are from uniform."""
-    steady, attrs = result.to_xarray().to_dataset(), result.attrs
-    columns = {name: partial(common.estimate, name=name) for name in tuple(ROWS)[:5]}
-    return common.table(result, lambda: _single(steady, attrs), lambda: columns)
+def page(result) -> Page:
+    """Steady values beside the model, and how far the steady profiles are from uniform."""
+    steady, dims = result.steady, common.dimensions(result)
+    if not result.is_steady:
+        return generic.page(result)
+
+    def known(here, name) -> str:
+        model = uniform_shear.model_at(result, here)
+        name = name.removeprefix("mean_")
+        return f"{float(model[name]):.4g}" if name in model else ""
+
+    if dims:
+        columns = generic.of_observables(steady, SWEEP)
+        if uniform_shear.has_theory(result.attrs):
+            columns["η* BGK"] = lambda here: known(here, "reduced_viscosity")
+        return generic.page(result, columns=columns)
+    theory = {}
+    if uniform_shear.model_at(result, steady):
+        theory["BGK model"] = lambda name, index: known(steady, name) if index is None else ""
+    usual = generic.page(result, theory)
+    return Page([*usual.blocks, _uneven(result)], usual.notes)
 
 
-def _single(steady, attrs) -> list[str]:
-    restitution, shear_rate = (attrs[f"parameter_{n}"] for n in ("restitution", "shear_rate"))
-    model = bgk_shear_flow.steady_state(restitution, shear_rate)
-    lines = [f"{'steady value':40s} {'jdsmc':>16s} {'BGK model':>10s}"]
-    for name, label in ROWS.items():
-        theory = float(getattr(model, name.removeprefix("mean_")))
-        lines.append(f"{label:40s} {common.estimate(steady, name):>16s} {theory:>10.4g}")
-    lines.append(f"{'largest deviation of the steady profiles':40s} {'':>16s} {'its layer':>10s}")
+def _uneven(result) -> Block:
+    """The layers that differ most from uniform shear."""
+    rows = []
     for name, label in UNEVEN.items():
-        value, error = _scaled(steady, name, shear_rate, attrs["parameter_length"])
-        deviation = value - _uniform(steady, name, attrs["parameter_length"])
+        value, error = scaled(result, result.steady, name)
+        deviation = value - _uniform(result.steady, name)
         worst = int(np.argmax(np.abs(deviation)))
         cell = format_estimate(float(deviation[worst]), float(error[worst]))
-        lines.append(f"{'  ' + label:40s} {cell:>16s} {worst + 1:>10d}")
-    return lines
+        rows.append([label, cell, str(worst + 1)])
+    head = ["largest deviation of the steady profiles", "jdsmc", "its layer"]
+    return Block(head, rows, (0,))
 
 
-def _scaled(data, name: str, shear_rate: float, length: float):
+def scaled(result, here: xr.Dataset, name: str):
     """A profile and its error in the units it is drawn in: n̄, T̄ and aL."""
-    value, error = data[name].values, data[f"{name}_error"].values
+    value, error = here[name].values, here[f"{name}_error"].values
+    whole = 1.0
     if name == "velocity_x":
-        whole = shear_rate * length or 1.0
-    else:
-        whole = float(data["mean_temperature"]) if name == "temperature" else 1.0
+        rate, length = (common.parameter(result, here, n) for n in ("shear_rate", "length"))
+        whole = float(rate * length) or 1.0
+    elif name == "temperature":
+        whole = float(here["mean_temperature"])
     return value / whole, error / whole
 
 
-def _uniform(data, name: str, length: float):
-    """What the profile is in uniform shear flow, in the same units."""
-    return data["y"].values / length - 0.5 if name == "velocity_x" else np.ones(data.sizes["y"])
+def _uniform(data: xr.Dataset, name: str) -> np.ndarray:
+    """What the profile is in uniform shear flow; layers are of equal width."""
+    layers = data.sizes["y"]
+    share = (np.arange(layers) + 0.5) / layers
+    return share - 0.5 if name == "velocity_x" else np.ones(layers)
 
 
 def draw(result):
-    """Profiles at several times beside the global averages; for a sweep the latter only."""
-    import matplotlib.pyplot as plt  # noqa: PLC0415 - slow to import
+    """Profiles (at several times, or of the steady points of a sweep) and global averages."""
+    dims = common.dimensions(result)
+    figure, panels = pictures.grid(6, 3)
+    if dims:
+        _sweep_profiles(panels[:3], result, dims)
+    else:
+        _profiles_in_time(panels[:3], result)
+    _averages(panels[3:], result, dims)
+    return pictures.finish(figure, panels, common.title(result, "Sheared slab"))
 
+
+def _profiles_in_time(panels, result) -> None:
     series = result.series
-    dims = series["time"].dims[:-1]
-    columns = 1 if dims else 2
-    figure, panels = plt.subplots(
-        3, columns, figsize=(5.2 * columns, 8.0), sharex="col", squeeze=False, layout="constrained"
-    )
-    if not dims:
-        _draw_profiles(panels[:, 0], series, result.attrs)
-    _draw_averages(panels[:, -1], series, dims)
-    figure.suptitle(_title(result.attrs), fontsize=10)
-    return figure
-
-
-def _draw_profiles(panels, series, attrs) -> None:
-    length, shear_rate = attrs["parameter_length"], attrs["parameter_shear_rate"]
     reached = series["collisions"].values
-    wanted = [s for s in INSTANTS if s <= reached[-1]]
-    for number, s in enumerate(wanted):
-        here = series.isel(sample=int(np.argmin(np.abs(reached - s))))
+    nearest = {int(np.argmin(np.abs(reached - s))) for s in INSTANTS if s <= reached[-1]}
+    for number, sample in enumerate(sorted(nearest)):
+        here = series.isel(sample=sample)
         label = f"s = {float(here['collisions']):.2g}"
-        style = {"color": f"C{number}"}
-        for panel, name in zip(panels, ("velocity_x", "density", "temperature"), strict=True):
-            value, error = _scaled(here, name, shear_rate, length)
-            common.curve(panel, here["y"].values, value, error, label, **style)
-    y = series["y"].values
-    panels[0].plot(y, y / length - 0.5, "k:", lw=1, label="uniform shear")
-    for panel, name in zip(panels, ("u_x / aL", "n / n̄", "T / T̄"), strict=True):
-        panel.set_ylabel(name)
-    panels[0].legend(fontsize=7, frameon=False, loc="upper left", labelspacing=0.2)
-    panels[2].set_xlabel("y / λ0")
+        _draw_profiles(panels, result, here, label, f"C{number}")
+    _uniform_lines(panels, series)
 
 
-def _draw_averages(panels, series, dims) -> None:
+def _sweep_profiles(panels, result, dims) -> None:
+    """Steady ones; before that, the last."""
+    data = result.steady if result.is_steady else result.series.isel(sample=-1)
+    for number, point in enumerate(pictures.drawn(data, dims)):
+        label = common.label(data, point)
+        _draw_profiles(panels, result, data.isel(point), label, f"C{number}")
+    _uniform_lines(panels, data)
+
+
+def _draw_profiles(panels, result, here: xr.Dataset, label: str, color: str) -> None:
+    for panel, name in zip(panels, PROFILES, strict=True):
+        value, error = scaled(result, here, name)
+        pictures.curve(panel, here["y"].values, value, error, label, color=color)
+
+
+def _uniform_lines(panels, data: xr.Dataset) -> None:
+    for panel, (name, label) in zip(panels, PROFILES.items(), strict=True):
+        y = data["y"].values
+        panel.plot(y, _uniform(data, name), "k:", lw=1.2, label="uniform shear")
+        panel.set(xlabel=common.with_unit(data, "y"), ylabel=label)
+
+
+def _averages(panels, result, dims) -> None:
+    series = result.series
     curves = {
-        "mean_temperature": (0, ""),
-        "shear_stress": (1, "-Pxy/nT"),
-        "normal_stress_xy": (1, "(Pxx-Pyy)/nT"),
-        "collision_ratio": (2, ""),
+        "mean_temperature": panels[0],
+        "shear_stress": panels[1],
+        "normal_stress_xy": panels[1],
+        "collision_ratio": panels[2],
     }
-    for point in common.some_points(series, dims):
+    stresses = {"shear_stress": "-", "normal_stress_xy": "--"}
+    for number, point in enumerate(common.some_points(series, dims)):
         here, label = series.isel(point), common.label(series, point)
-        for name, (row, short) in curves.items():
-            value, error = here[name].values, here[f"{name}_error"].values
-            text = f"{short} {label}".strip()
-            common.curve(panels[row], here["collisions"].values, value, error, text)
-    for panel, name in zip(panels, ("T̄ / T0", "reduced stress", "s / s0"), strict=True):
-        panel.set_ylabel(name)
-    panels[0].set_yscale("log")
-    for panel in panels[:2]:
-        if panel.get_legend_handles_labels()[1]:
-            panel.legend(fontsize=8, frameon=False)
-    panels[2].set_xlabel("collisions per particle s")
-
-
-def _title(attrs) -> str:
-    gas = "inelastic" if attrs["gas_model"] == "InelasticHardSpheres" else "frictional elastic"
-    fixed = [
-        f"{symbol} = {attrs[f'parameter_{name}']:g}"
-        for name, symbol in (("restitution", "α"), ("shear_rate", "aτ0"), ("length", "L/λ0"))
-        if np.ndim(attrs.get(f"parameter_{name}", ())) == 0 and f"parameter_{name}" in attrs
-    ]
-    start = attrs["option_initial_state"].replace("_", " ")
-    first = ", ".join([f"Sheared slab of {gas} hard spheres", *fixed])
-    return f"{first}\nfrom {start}; {common.sizes(attrs)}; bands: two standard errors"
+        for name, panel in curves.items():
+            s, value, error = (here[key].values for key in ("collisions", name, f"{name}_error"))
+            style = {"color": f"C{number}", "ls": stresses.get(name, "-")}
+            text = label if name != "normal_stress_xy" else ""
+            pictures.curve(panel, s, value, error, text, **style)
+    for name, style in stresses.items():
+        panels[1].plot([], [], "k", ls=style, lw=1.2, label=common.symbol(series, name))
+    pictures.readable_log(panels[0], series["mean_temperature"].values)
+    for panel, label in zip(panels, ("T̄/T0", "reduced stresses", "s/s0"), strict=True):
+        panel.set(ylabel=label, xlabel="collisions per particle s")

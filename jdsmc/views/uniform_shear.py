@@ -1,174 +1,151 @@
-"""Table and pictures of sheared gases, beside the BGK kinetic model."""
-
-from functools import partial
+"""Sheared gases: beside the BGK kinetic model where that is one of them."""
 
 import numpy as np
+import xarray as xr
 
-from ..results.result import format_estimate
 from ..theory import bgk_shear_flow
-from . import common
+from . import common, generic, pictures, velocities
+from .page import Page
 
-ROWS = {
-    "temperature": "temperature T/T0",
-    "reduced_shear_rate": "reduced shear rate a*",
-    "shear_stress": "shear stress -Pxy/nT",
-    "normal_stress_xy": "normal stress (Pxx-Pyy)/nT",
-    "normal_stress_zy": "normal stress (Pzz-Pyy)/nT",
-    "reduced_viscosity": "reduced viscosity η*",
-    "first_viscometric": "viscometric function -Ψ1",
-    "second_viscometric": "viscometric function Ψ2",
-    "relative_speed_cubed": "relative speed ⟨V12³⟩/⟨V12³⟩0",
-    "relative_speed_cubed_collisional": "  the same from the energy lost",
-    "a2": "fourth cumulant a2",
-    "a3": "sixth cumulant a3",
-    "collision_rate_ratio": "collision rate over local equilibrium",
-}
-SWEEP_COLUMNS = ("temperature", "shear_stress", "normal_stress_xy", "normal_stress_zy", "a2")
-NO_THEORY = ("relative_speed_cubed", "relative_speed_cubed_collisional", "collision_rate_ratio")
+STRESSES = ("shear_stress", "normal_stress_xy", "normal_stress_zy")
+SWEEP = ("temperature", *STRESSES, "reduced_viscosity", "a2")
+PANELS = ("reduced_shear_rate", "reduced_viscosity", *STRESSES, "a2", "a3")
+MODEL = (*PANELS, "temperature", "first_viscometric", "second_viscometric")
+"""What the model has a steady value of."""
+NEEDS = {*SWEEP, *PANELS, "collisions"}
+STYLES: dict[str, str] = dict(zip(STRESSES, ("-", "--", "-."), strict=True))
 
 
-def table(result) -> str:
-    """Steady values: one column for a single gas, one row a point for a sweep."""
-    steady = result.to_xarray().to_dataset()
-    columns = {name: partial(common.estimate, name=name) for name in SWEEP_COLUMNS}
-    return common.table(result, lambda: _single(steady, result.attrs), lambda: columns)
+def has_theory(attrs: dict) -> bool:
+    """True of hard spheres, elastic ones with the rate factor that the model stands for."""
+    gases = common.gas_models(attrs)
+    if not gases <= {"InelasticHardSpheres", "ElasticHardSpheres"}:
+        return False
+    return "ElasticHardSpheres" not in gases or attrs.get("option_rate_factor") == "linear"
 
 
-def _single(steady, attrs) -> list[str]:
-    model = _model(attrs["parameter_restitution"], attrs["parameter_shear_rate"])
-    lines = [f"{'steady value':40s} {'jdsmc':>16s} {'BGK model':>10s}"]
-    for name, label in ROWS.items():
-        value, error = float(steady[name]), float(steady[f"{name}_error"])
-        if not np.isnan(value):
-            theory = f"{float(model[name]):.4g}" if name in model else ""
-            lines.append(f"{label:40s} {format_estimate(value, error):>16s} {theory:>10s}")
-    for index, value in enumerate(steady["speed_ratio"].values):
-        error = float(steady["speed_ratio_error"][index])
-        label = f"particles with {common.speed_class(index)}, over Maxwell"
-        lines.append(f"{label:40s} {format_estimate(float(value), error):>16s}")
-    return lines
+def model_at(result, here: xr.Dataset, **instead) -> dict[str, np.ndarray]:
+    """Steady values of the model at one point, by name; empty where it has none.
 
-
-def _model(restitution, shear_rate) -> dict:
-    """Steady values of the BGK model by observable name; empty where it has none."""
-    if not (np.all(np.asarray(restitution) < 1) and np.all(np.asarray(shear_rate) > 0)):
+    `instead`: arrays in place of a number of the point.
+    """
+    if not has_theory(result.attrs):
         return {}
-    state = bgk_shear_flow.steady_state(restitution, shear_rate)
-    names = (name for name in ROWS if name not in NO_THEORY)
-    return {name: np.asarray(getattr(state, name)) for name in names}
+    found = {name: common.parameter(result, here, name) for name in ("restitution", "shear_rate")}
+    alpha, rate = np.broadcast_arrays(*(found | instead).values())
+    if not (np.all(alpha < 1) and np.all(rate > 0)):
+        return {}
+    state = vars(bgk_shear_flow.steady_state(alpha, rate))
+    return {name: np.asarray(state[name]) for name in MODEL}
+
+
+def page(result) -> Page:
+    """Steady values beside the model; for a sweep the stresses, η* and a2."""
+    steady = result.steady
+
+    def known(here, name) -> str:
+        model = model_at(result, here)
+        return f"{float(model[name]):.4g}" if name in model else ""
+
+    if not common.dimensions(result):
+        theory = {}
+        if model_at(result, steady):
+            theory["BGK model"] = lambda name, index: known(steady, name) if index is None else ""
+        return generic.page(result, theory)
+    if not result.is_steady:
+        return generic.page(result)
+    columns = generic.of_observables(steady, SWEEP)
+    if has_theory(result.attrs):
+        for name in ("shear_stress", "reduced_viscosity"):
+            heading = f"{common.symbol(steady, name)} BGK"
+            columns[heading] = lambda here, name=name: known(here, name)
+    return generic.page(result, columns=columns)
 
 
 def draw(result):
-    """Approach to the steady state of one gas, or steady values against restitution."""
-    dims = result.series["temperature"].dims[:-1]
-    if "restitution" in dims and result.is_steady:
-        return _draw_sweep(result)
-    return _draw_series(result)
+    """Approach to the steady state, or steady values of a sweep; and velocities."""
+    dims = common.dimensions(result)
+    x = pictures.across(result.steady, dims) if result.is_steady else ""
+    return _draw_sweep(result, x) if x else _draw_series(result)
 
 
 def _draw_series(result):
-    import matplotlib.pyplot as plt  # noqa: PLC0415 - slow to import
+    series, dims = result.series, common.dimensions(result)
+    with_velocities = velocities.sampled(result) is not None
+    figure, panels = pictures.grid(4 if with_velocities else 2, 2)
+    for number, point in enumerate(common.some_points(series, dims)):
+        here, label = series.isel(point), common.label(series, point)
+        for panel, name in [(panels[0], "temperature"), *((panels[1], n) for n in STRESSES)]:
+            s, value, error = (here[key].values for key in ("collisions", name, f"{name}_error"))
+            style = {"color": f"C{number}", "ls": STYLES.get(name, "-")}
+            if not dims and name in STRESSES:
+                style = {"color": f"C{STRESSES.index(name)}"}
+            text = label if dims else common.symbol(series, name)
+            shown = text if name in ("temperature", "shear_stress") or not dims else ""
+            pictures.curve(panel, s, value, error, shown, **style)
+    if dims:
+        for name, style in STYLES.items():
+            panels[1].plot([], [], "k", ls=style, lw=1.2, label=common.symbol(series, name))
+    else:
+        _model_curves(panels, result)
+    pictures.readable_log(panels[0], series["temperature"].values)
+    for panel, label in zip(panels, ("temperature T/T0", "reduced stresses"), strict=False):
+        panel.set(ylabel=label, xlabel="collisions per particle s")
+    if with_velocities:
+        velocities.draw(panels[2], result, "velocity")
+        velocities.draw(panels[3], result, "speed_bin")
+        _model_velocities(panels[2:], result, result.distribution)
+    return pictures.finish(figure, panels, common.title(result, "Uniform shear flow"))
 
+
+def _model_curves(panels, result) -> None:
+    """Dotted lines of the model, as in figures 7 and 8 of the paper."""
     series, attrs = result.series, result.attrs
-    figure, (top, bottom) = plt.subplots(
-        2, 1, figsize=(6.4, 6.4), sharex=True, layout="constrained"
-    )
-    dims = series["temperature"].dims[:-1]
-    for index in np.ndindex(*(series.sizes[d] for d in dims)):
-        point = dict(zip(dims, index, strict=True))
-        label = ", ".join(f"{d} = {common.short(series[d].values[k])}" for d, k in point.items())
-        _curve(top, series.isel(point), "temperature", label or "T/T0")
-        for name, short in (
-            ("shear_stress", "-Pxy/nT"),
-            ("normal_stress_xy", "(Pxx-Pyy)/nT"),
-            ("normal_stress_zy", "(Pzz-Pyy)/nT"),
-        ):
-            _curve(bottom, series.isel(point), name, f"{short} {label}".strip())
-    if not dims:
-        _model_curves(top, bottom, series, attrs)
-    positive = series["temperature"].values
-    if np.nanmax(positive) > 5 * np.nanmin(positive):
-        top.set_yscale("log")
-    top.set_ylabel("temperature T/T0")
-    bottom.set_ylabel("reduced stress")
-    bottom.set_xlabel("collisions per particle s")
-    top.set_title(_title(attrs), fontsize=10)
-    for panel in (top, bottom):
-        panel.legend(fontsize=8, frameon=False)
-    return figure
-
-
-def _curve(panel, series, name: str, label: str) -> None:
-    s, value, error = (series[n].values for n in ("collisions", name, f"{name}_error"))
-    common.curve(panel, s, value, error, label)
-
-
-def _model_curves(top, bottom, series, attrs) -> None:
-    """Dotted lines of the BGK model, as in figures 7 and 8 of the paper."""
-    restitution, shear_rate = attrs["parameter_restitution"], attrs["parameter_shear_rate"]
-    if shear_rate <= 0:
+    time, rate = series["time"].values, attrs.get("parameter_shear_rate", 0.0)
+    if not has_theory(attrs) or rate <= 0 or len(time) < 2:
         return
-    model = bgk_shear_flow.transient(restitution, shear_rate, series["time"].values)
-    factor = (1.0 + restitution) / 2.0 if attrs["gas_model"] == "ElasticHardSpheres" else 1.0
-    s = factor * model.collisions
-    top.plot(s, model.temperature, "k:", lw=1, label="BGK model")
-    bottom.plot(s, model.shear_stress, "k:", lw=1, label="BGK model")
-    bottom.plot(s, model.normal_stress_xy, "k:", lw=1)
+    alpha = attrs["parameter_restitution"]
+    model = bgk_shear_flow.transient(alpha, rate, time)
+    elastic = "ElasticHardSpheres" in common.gas_models(attrs)
+    s = model.collisions * ((1.0 + alpha) / 2.0 if elastic else 1.0)
+    panels[0].plot(s, model.temperature, "k:", lw=1.2, label="BGK model")
+    panels[1].plot(s, model.shear_stress, "k:", lw=1.2, label="BGK model")
+    panels[1].plot(s, model.normal_stress_xy, "k:", lw=1.2)
 
 
-def _title(attrs) -> str:
-    gas = "inelastic" if attrs["gas_model"] == "InelasticHardSpheres" else "frictional elastic"
-    numbers = [
-        f"{symbol} = {attrs[key]:g}"
-        for symbol, key in (("α", "parameter_restitution"), ("aτ0", "parameter_shear_rate"))
-        if np.ndim(attrs.get(key, ())) == 0 and key in attrs
-    ]
-    return (
-        f"Sheared gas of {gas} hard spheres, {', '.join(numbers)}; N = {attrs['n_particles']}, "
-        f"{attrs['n_realizations']} realizations\nbands: two standard errors"
-    )
+def _model_velocities(panels, result, here: xr.Dataset) -> None:
+    """The model's steady distributions at one point."""
+    if not model_at(result, here):
+        return
+    alpha = float(common.parameter(result, here, "restitution"))
+    along_x, speed = panels
+    low, high = along_x.get_xlim()
+    c = np.linspace(low, high, 201)
+    text = "BGK model"
+    along_x.plot(c, bgk_shear_flow.marginal_x(alpha, c), "k:", lw=1.2, label=text)
+    c = np.linspace(0.05, speed.get_xlim()[1], 60)
+    speed.plot(c, bgk_shear_flow.speed_distribution(alpha, c), "k:", lw=1.2, label=text)
 
 
-PANELS = {
-    "reduced_shear_rate": "a*",
-    "shear_stress": "-Pxy/nT",
-    "normal_stress_xy": "(Pxx-Pyy)/nT",
-    "normal_stress_zy": "(Pzz-Pyy)/nT",
-    "a2": "a2",
-    "a3": "a3",
-}
-
-
-def _draw_sweep(result):
-    import matplotlib.pyplot as plt  # noqa: PLC0415 - slow to import
-
-    steady = result.to_xarray().to_dataset()
-    figure, panels = plt.subplots(2, 3, figsize=(10, 6.2), sharex=True, layout="constrained")
-    others = [d for d in steady["temperature"].dims if d != "restitution"]
-    alpha = steady["restitution"].values
-    fine = np.linspace(alpha.min(), min(alpha.max(), 0.999), 100)
-    model = _model(fine, 1.0)
-    for panel, (name, label) in zip(panels.flat, PANELS.items(), strict=True):
-        for number, index in enumerate(np.ndindex(*(steady.sizes[d] for d in others))):
-            point = dict(zip(others, index, strict=True))
-            panel.errorbar(
-                alpha,
-                steady[name].isel(point).values,
-                2 * steady[f"{name}_error"].isel(point).values,
-                fmt="osD^v"[number % 5],
-                ms=4,
-                mfc="none",
-                capsize=2,
-                label=", ".join(
-                    f"{d} {common.short(steady[d].values[k])}" for d, k in point.items()
-                )
-                or "jdsmc",
-            )
-        if name in model:
-            panel.plot(fine, np.broadcast_to(model[name], fine.shape), "k:", lw=1, label="BGK")
-        panel.set_ylabel(label)
-    for panel in panels[1]:
-        panel.set_xlabel("restitution α")
-    panels[0, 0].legend(fontsize=8, frameon=False)
-    figure.suptitle("Steady sheared gas (error bars: two standard errors)", fontsize=10)
-    return figure
+def _draw_sweep(result, x: str):
+    steady, dims = result.steady, common.dimensions(result)
+    with_velocities = velocities.sampled(result) is not None
+    figure, panels = pictures.grid(len(PANELS) + 2 * with_velocities, 3, 3.8, 2.8)
+    values = steady[x].values
+    fine = np.linspace(values.min(), values.max(), 100)
+    if x == "restitution":
+        fine = np.linspace(values.min(), min(values.max(), 0.999), 100)
+    others = [d for d in dims if d != x]
+    for panel, name in zip(panels, PANELS, strict=False):
+        pictures.against_sweep(panel, steady, dims, x, name)
+        for number, point in enumerate(common.points(steady, others)):
+            model = model_at(result, steady.isel(point), **{x: fine})
+            if name in model:
+                text = "" if number else "BGK model"
+                panel.plot(fine, model[name], "k:", lw=1.2, label=text or None)
+    if with_velocities:
+        velocities.draw(panels[-2], result, "velocity")
+        velocities.draw(panels[-1], result, "speed_bin")
+        first = pictures.drawn(result.distribution, dims)[0]
+        _model_velocities(panels[-2:], result, result.distribution.isel(first))
+    return pictures.finish(figure, panels, common.title(result, "Uniform shear flow"))

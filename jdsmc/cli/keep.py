@@ -1,0 +1,130 @@
+"""What is done with results: saved first, whatever happens; then drawn and shown.
+
+A simulation may have taken days: nothing that can fail stands between its end and the file, and
+what fails after that says so in a sentence.
+"""
+
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from ..results.join import join_gases
+from ..results.result import Result, check_writable
+
+PICTURES = (".png", ".pdf", ".svg")
+RESULTS = (".h5", ".hdf5", ".nc")
+SPARE_NAMES = 100
+
+
+def check_files(out: str | None, plot: str | None) -> None:
+    """Raise ValueError or OSError, before a run, unless both files can be written."""
+    if out is not None:
+        check_writable(out)
+    if plot is not None:
+        check_picture(plot)
+    if out is not None and plot is not None and Path(out).resolve() == Path(plot).resolve():
+        raise ValueError(f"--out and --plot are the same file {out}; give two names.")
+
+
+def check_picture(path: str | Path) -> Path:
+    """The path, if a picture may be written there (an older one is replaced)."""
+    path = Path(path)
+    if path.suffix not in PICTURES:
+        raise ValueError(f"the name of a picture ends in {', '.join(PICTURES)}; got {path}.")
+    return check_writable(path, overwrite=True)
+
+
+def picture_of(file: Path) -> Path:
+    """The picture of a result file: .png instead of its own suffix, if that is one of results."""
+    return file.with_suffix(".png") if file.suffix in RESULTS else Path(f"{file}.png")
+
+
+def keep(
+    results: dict[str, Result], out: str | None, plot: str | None, *, join: bool, spare: str
+) -> int:
+    """Save, draw and show results by gas; the exit status, 1 if any of that failed.
+
+    Arguments: the files asked for; `join` puts the gases side by side; `spare` names the file of a
+    result that nobody asked to save and that cannot be shown.
+    """
+    parts = {"": next(iter(results.values()))}
+    failed = False
+    if join:
+        try:
+            parts = {"": join_gases(results)}
+        except Exception as error:
+            parts = {f"-{gas}": result for gas, result in results.items()}
+            failed = complain("the gases cannot be put side by side, each is kept alone", error)
+    for suffix, result in parts.items():
+        if out is not None:
+            failed |= save(result, extended(out, suffix))
+        if plot is not None:
+            failed |= draw(result, extended(plot, suffix))
+        failed |= show(result, None if out else Path(f"{spare}{suffix}.h5"))
+    return int(failed)
+
+
+def save(result: Result, path: Path) -> bool:
+    """Write a result, under another name if that one cannot be written; True if all names fail."""
+    problem: Exception | None = None
+    for other in (path, *spare_paths(path)):
+        try:
+            result.save(other)
+        except FileExistsError as error:
+            problem = problem or error
+            continue
+        except Exception as error:  # a full disk, a folder that is gone, data that HDF5 refuses
+            problem = problem or error
+            continue
+        if problem is not None:
+            complain(f"{path} could not be written, saved as {other} instead", problem)
+        print(f"Results: {other}")
+        return False
+    return complain("the results could not be saved", problem)
+
+
+def spare_paths(path: Path) -> Iterator[Path]:
+    """Names beside a path, in the current folder, in that of temporary files."""
+    if path.parent.is_dir():
+        for number in range(2, SPARE_NAMES):
+            yield path.with_name(f"{path.stem}-{number}{path.suffix}")
+    for folder in (Path.cwd(), Path(tempfile.gettempdir())):
+        for number in range(1, SPARE_NAMES):
+            yield folder / (path.name if number == 1 else f"{path.stem}-{number}{path.suffix}")
+
+
+def draw(result: Result, path: Path) -> bool:
+    """Write a picture; True if that failed."""
+    import matplotlib  # noqa: PLC0415 - slow to import
+
+    matplotlib.use("agg")
+    try:
+        result.plot(path)
+    except Exception as error:
+        return complain(f"the picture {path} could not be drawn", error)
+    print(f"Picture: {path}")
+    return False
+
+
+def show(result: Result, otherwise: Path | None = None) -> bool:
+    """Print the table; True if that failed, in which case the result is saved `otherwise`."""
+    try:
+        table = result.table()
+    except Exception as error:
+        failed = complain("the table could not be made", error)
+        return failed | (otherwise is not None and save(result, otherwise))
+    print(table)
+    return False
+
+
+def extended(path: str, suffix: str) -> Path:
+    """`sweep.h5` as `sweep-ihs.h5`."""
+    return Path(path).with_name(f"{Path(path).stem}{suffix}{Path(path).suffix}")
+
+
+def complain(what: str, error: Exception | None) -> bool:
+    """One sentence on what failed and why; True, so that it can be returned."""
+    why = " ".join(str(error).split()) or type(error).__name__
+    print(f"jdsmc: {what}: {why.rstrip('.')}.", file=sys.stderr)
+    return True

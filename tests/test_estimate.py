@@ -1,0 +1,144 @@
+"""Estimates: how they are printed, and arithmetic that propagates their errors."""
+
+import numpy as np
+import pytest
+
+from jdsmc import Estimate, combine
+from jdsmc.estimate import format_estimate
+from jdsmc.stats import jackknife
+
+REALIZATIONS = 8
+
+
+@pytest.mark.parametrize(
+    "value, error, text",
+    [
+        (0.33251, 0.00042, "0.33251(42)"),
+        (-1.5, 0.25, "-1.50(25)"),
+        (2.0, 0.0999, "2.00(10)"),  # rounds up to one digit more
+        (2.0, 0.996, "2.0(10)"),
+        (21.2, 9.96, "21(10)"),
+        (1234.5, 99.7, "1234(100)"),
+        (1234.5, 120.0, "1234(120)"),
+        (305.6, 1.0, "305.6(10)"),
+        (0.5, 0.0, "0.5"),
+        (0.5, np.nan, "0.5"),
+        (np.nan, np.nan, "nan"),
+    ],
+)
+def test_format(value, error, text):
+    """The error in units of the last digits."""
+    assert format_estimate(value, error) == text
+    assert str(Estimate(value, error)) == text
+
+
+def measured(run, functions, seed=1, shape=()):
+    """Estimates of functions of two correlated averages over the realizations of one run."""
+    rng = np.random.default_rng(seed)
+    common = rng.normal(size=(REALIZATIONS, *shape))
+    x = 3.0 + 0.15 * (common + 0.3 * rng.normal(size=common.shape))
+    y = 2.0 + 0.10 * (common + 0.3 * rng.normal(size=common.shape))
+    names = {str(k): f for k, f in enumerate(functions)}
+    value, error, left_out = jackknife(
+        {"x": x, "y": y}, lambda m: {k: f(m["x"], m["y"]) for k, f in names.items()}, axis=0
+    )
+    return [Estimate(value[k], error[k], {run: left_out[k]}) for k in names]
+
+
+def x_of(x, y):
+    return x
+
+
+def y_of(x, y):
+    return y
+
+
+def test_nothing_is_left_of_a_difference_with_itself():
+    """Exactly zero, with no error; so it is for numbers of unknown origin and for arrays."""
+    (a,), (many,) = measured("run", [x_of]), measured("run", [x_of], shape=(3,))
+    for one in (a, many, Estimate(1.0, 0.1), Estimate(np.ones(3), np.full(3, 0.1))):
+        value, error = one - one
+        assert np.all(value == 0.0) and np.all(error == 0.0)
+        value, error = one / one
+        assert np.all(value == 1.0) and np.all(error == 0.0)
+
+
+def test_what_one_run_measures_is_correlated():
+    """The same numbers said to be of two runs: the error of the difference is then larger.
+
+    Var(x - y) = Var x + Var y - 2 Cov; here the correlation is 1/(1 + 0.09), or near it.
+    """
+    a, b = measured("run", [x_of, y_of])
+    (other,) = measured("other run", [lambda x, y: y])
+    assert other.value == b.value and other.error == pytest.approx(b.error, rel=1e-12)
+    together, apart = (a - b).error, (a - other).error
+    assert together < 0.6 * apart
+    assert apart == pytest.approx(np.hypot(a.error, b.error), rel=1e-12)
+    assert (a + b).error > 1.2 * apart
+
+
+FUNCTIONS = {
+    "difference": (lambda x, y: x - y, lambda a, b: a - b),
+    "ratio": (lambda x, y: x / y, lambda a, b: a / b),
+    "product": (lambda x, y: x * y, lambda a, b: a * b),
+    "powers": (lambda x, y: x**2 / y**3, lambda a, b: a**2 / b**3),
+    "numbers": (lambda x, y: 1.0 - 2.0 / (3.0 * x + y), lambda a, b: 1.0 - 2.0 / (3.0 * a + b)),
+    "signs": (lambda x, y: abs(-x) - y, lambda a, b: abs(-a) - b),
+    "map": (lambda x, y: np.log(x) + y, lambda a, b: a.map(np.log) + b),
+    "combine": (np.hypot, lambda a, b: combine(np.hypot, a, b)),
+}
+
+
+@pytest.mark.parametrize("shape", [(), (3,)])
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_arithmetic_is_a_jackknife(name, shape):
+    """Of estimates of one run: value and error of the function taken at once, to rounding."""
+    at_once, stepwise = FUNCTIONS[name]
+    (expected,) = measured("run", [at_once], shape=shape)
+    found = stepwise(*measured("run", [x_of, y_of], shape=shape))
+    np.testing.assert_allclose(found.value, expected.value, rtol=1e-12)
+    np.testing.assert_allclose(found.error, expected.error, rtol=1e-9)
+
+
+def test_different_runs_add_in_quadrature():
+    """Exactly for a sum; a sum of three runs too, and of numbers of unknown origin."""
+    (a,), (b,), (c,) = (measured(f"run {k}", [x_of], seed=k) for k in (1, 2, 3))
+    assert (a - b).error == pytest.approx(np.hypot(a.error, b.error), rel=1e-12)
+    total = combine(lambda x, y, z: x + 2.0 * y - z, a, b, c)
+    exact = np.sqrt(a.error**2 + 4.0 * b.error**2 + c.error**2)
+    assert total.error == pytest.approx(exact, rel=1e-12)
+    assert total.value == a.value + 2.0 * b.value - c.value
+    plain = Estimate(1.0, 0.3) - Estimate(2.0, 0.4)
+    assert plain.error == pytest.approx(0.5, rel=1e-12)
+    # what shares one of its runs is correlated through that one only
+    assert ((a + b) - b).error == pytest.approx(a.error, rel=1e-9)
+
+
+def test_points_of_a_sweep_are_independent():
+    (sweep,) = measured("run", [x_of], shape=(2,))
+    first, second = sweep[0], sweep[1]
+    assert (first.value, first.error) == (sweep.value[0], sweep.error[0])
+    assert (first - second).error == pytest.approx(np.hypot(*sweep.error), rel=1e-12)
+    assert (first - sweep[0]).error == 0.0
+
+
+def test_windows_that_do_not_match():
+    """Eight realizations against four of one run: they cannot be paired."""
+    (a,) = measured("run", [x_of])
+    short = Estimate(1.0, 0.1, {"run": np.ones(4)})
+    with pytest.raises(ValueError, match="different windows of one run"):
+        a - short
+
+
+def test_distance():
+    """In standard errors, from a number or from another estimate."""
+    assert Estimate(1.3, 0.1).distance(1.0) == pytest.approx(3.0, rel=1e-9)
+    assert Estimate(1.0, 0.3).distance(Estimate(2.0, 0.4)) == pytest.approx(-2.0, rel=1e-9)
+
+
+def test_taken_apart_and_shown():
+    value, error = Estimate(0.33251, 0.00042)
+    assert (value, error) == (0.33251, 0.00042)
+    assert float(Estimate(0.5, 0.1)) == 0.5
+    assert repr(Estimate(0.33251, 0.00042)) == "Estimate(0.33251(42))"
+    assert str(Estimate(np.array([1.0, 2.0]), np.array([0.1, 0.2]))) == "1.00(10)\n2.00(20)"
