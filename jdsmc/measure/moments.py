@@ -74,7 +74,7 @@ def moments(velocity: Velocity) -> Moments:
     squared = sum(v * v for v in velocity)
     diagonal = [mean(v * v) for v in velocity]
     thermal = (2.0 / len(velocity)) * sum(diagonal)
-    below = [mean((squared < c * c * thermal).astype(vx.dtype)) for c in SPEED_CLASSES]
+    below = [mean(jnp.less(squared, c * c * thermal).astype(vx.dtype)) for c in SPEED_CLASSES]
     edges = jnp.stack([jnp.zeros_like(thermal), *below, jnp.ones_like(thermal)])
     return Moments(
         diagonal[0],

@@ -40,7 +40,8 @@ class Result:
         if "left_out" in self._tree.children:
             values = self._tree["left_out"].to_dataset()[name].transpose("realization", ...).values
             left_out = {(self.attrs["run"], self.attrs.get("point", "")): values}
-        return Estimate(*(x if x.ndim else float(x) for x in (value, error)), left_out)
+        value, error = (x if x.ndim else float(x) for x in (value, error))
+        return Estimate(value, error, left_out)
 
     def __contains__(self, name: object) -> bool:
         steady = self.steady

@@ -51,7 +51,7 @@ class Engine:
             self._keys.append(jax.device_put(_stacked(_group(keys, first, size)), device))
         work = list(zip(self._scenes, self._keys, strict=True))
         self._pool = ThreadPoolExecutor(min(len(work), max(cores(), len(devices))))
-        self.states: list[Any] = self._share(lambda n: _start(*work[n], options))
+        self.states: list[Any] = self._share(lambda n: _start(work[n][0], work[n][1], options))
 
     def advance(self):
         """One chunk. Returns (records, sample): pytrees of arrays (points, realizations, ...)."""
