@@ -92,8 +92,8 @@ class CoolingDisks(AbstractCoolingDisks):
         if columns > 1 and width > WIDEST_CELL:
             warnings.warn(
                 f"cells of {width:.2g} λ0 make the viscosity too large, by some "
-                f"{0.15 * width**2:.0%}; take real_per_cell = "
-                f"{self.real_per_cell * (0.3 / width) ** 2:.2g} (0.3 λ0), and copies in proportion.",
+                f"{0.15 * width**2:.0%}; for cells of 0.3 λ0 take real_per_cell = "
+                f"{self.real_per_cell * (0.3 / width) ** 2:.2g}, and more copies in proportion.",
                 stacklevel=4,
             )
         return options
