@@ -43,16 +43,16 @@ def scene_of(kind: str, alpha: float):
 def theory_of(kind: str, alpha: float) -> dict[str, float]:
     """Values of the theory by the names of the observables.
 
-    Disks of finite size have a mean free path shorter by χ, hence the noise of N n σ² χ², and the
-    viscosity is 1/χ + π n σ²/2 + ... times the dilute one, which nearly cancels (Enskog's theory of
-    elastic disks, Gass, J. Chem. Phys. 54, 1898 (1971)).
+    Disks of finite size collide χ times as often, and their viscosity is f = 1/χ + π n σ²/2 + ...
+    times the dilute one (Enskog's theory of elastic disks, Gass, J. Chem. Phys. 54, 1898 (1971)).
+    What counts for the noise is ν k²/ζ, so that they are like dilute disks at N n σ² χ/f.
     """
     chi, factor = 1.0, 1.0
     if kind == "dynamics":
         packing = np.pi * DENSE / 4
         chi = (1 - 7 * packing / 16) / (1 - packing) ** 2
         factor = 1 / chi + 2 * packing + 0.8729 * chi * (2 * packing) ** 2
-    mode = langevin.transverse_mode(alpha, REDUCED * chi**2)
+    mode = langevin.transverse_mode(alpha, REDUCED * chi / factor)
     viscosity = factor * mode.viscosity_ratio
     values = (mode.amplitude, viscosity, viscosity * mode.noise_over_viscosity)
     return dict(zip(NAMES, map(float, values), strict=True))
@@ -67,7 +67,7 @@ def outcome(kind: str, alpha: float, seed: int) -> list[dict]:
         result = jdsmc.run(
             scene,
             **{"n_particles": number, "duration": DURATIONS[alpha], "seed": seed},
-            **{"time_step": 0.1, "steps_per_record": 7, "progress": False},
+            **{"time_step": 0.07, "steps_per_record": 10, "progress": False},
         )
     seconds = round(time.monotonic() - began, 1)
     rows = []

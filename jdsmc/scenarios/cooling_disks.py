@@ -29,6 +29,9 @@ from .slab import uniform
 FEWEST_IN_CELL = 4.0
 """Fictive particles of a cell below which recollisions heat the gas by more than a percent."""
 
+WIDEST_CELL = 0.6
+"""In λ0. Cells of Δx add 0.13 to 0.17 (Δx/λ0)² to the viscosity (elastic, N n σ² = 20)."""
+
 
 class PlaneState(eqx.Module):
     """Positions (λ0) and scaled velocities (v0) of all fictive disks."""
@@ -83,6 +86,14 @@ class CoolingDisks(AbstractCoolingDisks):
                 f"{in_cell:.2g} fictive particles a cell collide again and again with the same "
                 "few: the gas becomes too hot (by 2% with 1 a cell at restitution 0.8, 10% with "
                 f"0.4); take copies = {math.ceil(self.copies * FEWEST_IN_CELL / in_cell)}.",
+                stacklevel=4,
+            )
+        width = self.side(options.n_particles) / columns
+        if columns > 1 and width > WIDEST_CELL:
+            warnings.warn(
+                f"cells of {width:.2g} λ0 make the viscosity too large, by some "
+                f"{0.15 * width**2:.0%}; for cells of 0.3 λ0 take real_per_cell = "
+                f"{self.real_per_cell * (0.3 / width) ** 2:.2g}, and more copies in proportion.",
                 stacklevel=4,
             )
         return options

@@ -193,3 +193,11 @@ def test_power_of_the_mode_in_time(elastic):
     power = elastic.series["mode_power"].values
     # 8 realizations of two modes, 30 decay times each: 5%
     assert np.mean(power) == pytest.approx(1.0, abs=0.25)
+
+
+def test_wide_cells_warn():
+    """Wider than 0.6 λ0: how many real disks of a cell would do."""
+    options = jdsmc.scenarios.Options.checked(200, 0.07, "strang", "float32", 10)
+    scene = CoolingDisks(InelasticHardDisks(1.0), density=0.1, real_per_cell=2.0)
+    with pytest.warns(UserWarning, match=r"cells of 1\.3 λ0 .* real_per_cell = 0\.11"):
+        scene.fit_options(options)
