@@ -13,6 +13,7 @@ from .gases import (
 )
 from .measure.observable import Observable
 from .results import Result, load
+from .running.cores import leave_cores_to_gases
 from .running.run import run
 
 __all__ = [
@@ -29,6 +30,7 @@ __all__ = [
     "choice",
     "combine",
     "count",
+    "leave_cores_to_gases",
     "load",
     "number",
     "random",
