@@ -1,35 +1,124 @@
-"""Statements of a paper without a number: how each is put to the test."""
+"""Claims of a paper: a number or a sentence, where it stands, and what we measure of it."""
 
-from collections.abc import Callable
+from collections.abc import Iterable
+from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
 
-class Finding(NamedTuple):
-    """What was measured, in words and numbers, and whether it bears the statement out.
+from jdsmc import Estimate
 
-    `holds` is None if the errors leave it open.
-    """
+from .markdown import grid
+from .numbers import Span
 
-    measured: str
-    holds: bool | None
+AGREEMENT = 2.0
+"""Standard errors (beyond the rounding of a quoted number) that still count as agreement."""
+
+HOLDS = {True: "holds", False: "**does not hold**", None: "not resolved"}
 
 
 class Claim(NamedTuple):
-    """A statement, where it stands, and the check, a function of all measurements."""
+    """What a paper says: the quoted sentence, or what the number is; its section or figure.
 
-    what: str
+    `expected`, `half_width`: the number, and half a unit of its last digit (for a range half its
+    length plus that). `key`: the name of the function that measures it.
+    """
+
+    key: str
+    text: str
     place: str
-    check: Callable[[Any], Finding]
+    expected: float | None = None
+    half_width: float = 0.0
 
 
-def percent(fraction: float, digits: int = 1) -> str:
-    """A fraction in percent."""
+class Finding(NamedTuple):
+    """What was measured, in words and numbers, and whether it bears a sentence out.
+
+    `holds` is true or false, or None if the errors leave it open.
+    """
+
+    measured: str
+    holds: Any
+
+
+class Verdict(NamedTuple):
+    """A claim beside our measurement: Estimate, Span, number or text.
+
+    `distance`: of a number, beyond its rounding, in our standard errors.
+    """
+
+    claim: Claim
+    measured: Any
+    holds: bool | None
+    distance: float | None
+
+    @property
+    def text(self) -> str:
+        """In a word."""
+        if self.claim.expected is None:
+            return HOLDS[self.holds]
+        far = f" by {self.distance:.1f} σ" if self.distance else ""
+        return "agrees" if self.holds else f"**differs{far}**"
+
+
+def read(path: Path) -> dict[str, list[Claim]]:
+    """Claims of a text file by its headings: `key | text | place [| value | half width]` a line."""
+    found: dict[str, list[Claim]] = {}
+    for line in path.read_text().splitlines():
+        if line.startswith("# "):
+            found[line[2:]] = claims = []
+        else:
+            key, text, place, *number = line.split(" | ")
+            claims.append(Claim(key, text, place, *map(float, number)))
+    return found
+
+
+def judge(claim: Claim, measured) -> Verdict:
+    """A claim beside what was measured of it."""
+    if isinstance(measured, Finding):
+        holds = None if measured.holds is None else bool(measured.holds)
+        return Verdict(claim, measured.measured, holds, None)
+    wanted, half = float(claim.expected or 0.0), claim.half_width
+    if isinstance(measured, Span):
+        holds = measured.low <= wanted + half and measured.high >= wanted - half
+        return Verdict(claim, measured, holds, None)
+    value, error = measured if isinstance(measured, Estimate) else (measured, 0.0)
+    beyond = float(abs(value - wanted) - half)
+    distance = beyond / float(error) if error > 0 else None
+    return Verdict(claim, measured, bool(beyond <= AGREEMENT * error), distance)
+
+
+def table(verdicts: Iterable[Verdict]) -> list[str]:
+    """Claims beside what was measured, of one kind: numbers or sentences."""
+    rows, numbers = [], False
+    for found in verdicts:
+        claim, numbers = found.claim, found.claim.expected is not None
+        paper = [f"{claim.expected:g} ± {claim.half_width:g}"] if numbers else []
+        rows.append([claim.text, claim.place, *paper, shown(found.measured), found.text])
+    header = ["quantity", "place", "paper", "ours"] if numbers else ["claim", "place", "measured"]
+    return grid([*header, "verdict"], rows)
+
+
+def shown(measured) -> str:
+    """A value as text."""
+    return f"{measured:.5g}" if isinstance(measured, float | np.floating) else str(measured)
+
+
+def percent(fraction, digits: int = 1) -> str:
+    """A fraction in percent, with its error if it has one."""
+    if isinstance(fraction, Estimate):
+        value, error = (100.0 * float(part) for part in fraction)
+        return f"({value:.{digits}f} ± {error:.{digits}f})%"
     return f"{100 * fraction:.{digits}f}%"
 
 
-def decide(value: float, error: float, positive: bool = True) -> bool | None:
-    """True if a number has the expected sign by more than 2 errors, False if the other, or None."""
-    signed = value if positive else -value
-    if abs(signed) <= 2.0 * error:
-        return None
-    return bool(signed > 0)
+def positive(found: Estimate) -> bool | None:
+    """True if a number is above 0 by more than 2 errors, False if below by as much, or None."""
+    value, error = (float(part) for part in found)
+    return None if abs(value) <= AGREEMENT * error else value > 0
+
+
+def every(signs: Iterable[bool | None]) -> bool | None:
+    """True if all hold, False if one does not, else None."""
+    signs = list(signs)
+    return False if False in signs else (None if None in signs else True)

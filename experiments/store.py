@@ -2,54 +2,34 @@
 
 import ast
 import hashlib
+import json
 import time
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
-from typing import Protocol
 
 import jdsmc
 from jdsmc import Result, load
 
 PACKAGE = Path(jdsmc.__file__).parent
 
-OUTSIDE = ("__init__.py", "cli.py", "result.py", "check.py")
-"""Sources that decide no number."""
+OUTSIDE = ("views", "cli", "results", "check.py", "running/progress.py", "running/provenance.py")
+"""Sources that decide no number; nor do those that only they import."""
 
 
-class Case(Protocol):
-    """One simulation: its name, what decides its result, and how to make it."""
-
-    @property
-    def name(self) -> str:
-        """Name of the file, without suffix."""
-        ...
-
-    @property
-    def module(self) -> str:
-        """Source of the simulation in `jdsmc`, e.g. scenarios/uniform_shear.py."""
-        ...
-
-    def request(self) -> str:
-        """Everything that decides the result, as text to compare with a file's."""
-        ...
-
-    def simulate(self) -> Result:
-        """Run it."""
-        ...
-
-
-def obtain(case: Case, folder: Path, fresh: bool = False) -> Result:
+def obtain(case, folder: Path, fresh: bool = False) -> Result:
     """The result of a case: from FOLDER/<name>.h5 if made with the same request and program.
 
+    A case has a `name`; `request()`, all that decides the result but the program, as text;
+    `sources()`, modules that the simulation starts from; and `simulate()`.
     Raises KeyboardInterrupt if the run was interrupted (nothing is saved then), and what `simulate`
     raises.
     """
     path = folder / f"{case.name}.h5"
-    made_by = program(case.module)
+    asked = {"request": case.request(), "program": program(*case.sources())}
     if path.exists() and not fresh:
         result = load(path)
-        made = (result.attrs.get("request"), result.attrs.get("program"))
-        if made == (case.request(), made_by):
+        if all(result.attrs.get(name) == value for name, value in asked.items()):
             print(f"{case.name}: reused from {path}", flush=True)
             return result
     print(f"{case.name}: running", flush=True)
@@ -58,39 +38,75 @@ def obtain(case: Case, folder: Path, fresh: bool = False) -> Result:
     if result.attrs["stopped"].startswith("interrupted"):
         raise KeyboardInterrupt(result.attrs["stopped"])
     seconds = time.perf_counter() - start
-    result.to_xarray().attrs.update(request=case.request(), program=made_by, seconds=seconds)
-    _save(result, path)
+    result.to_xarray().attrs.update(asked, seconds=seconds)
+    partial = path.with_suffix(".partial.h5")  # a half-written file is never taken for a result
+    result.save(partial, overwrite=True)
+    partial.replace(path)
     print(f"{case.name}: {seconds:.1f} s, {result.attrs['stopped']}", flush=True)
     return result
 
 
+def kept(path: Path, asked: dict, compute: Callable[[], dict], fresh: bool = False) -> dict:
+    """What a computation without `Result` returns (plain data): from a JSON file if as asked."""
+    if path.exists() and not fresh:
+        found = json.loads(path.read_text())
+        if found["asked"] == json.loads(json.dumps(asked)):
+            return found["values"]
+    print(f"{path.stem}: running", flush=True)
+    values = compute()
+    path.write_text(json.dumps({"asked": asked, "values": values}, indent=1))
+    return values
+
+
 @cache
-def program(module: str) -> str:
-    """A fingerprint of a source of `jdsmc`, of `run`, and of all that they import from it."""
+def program(*sources: Path) -> str:
+    """A fingerprint of some modules and of every module of `jdsmc` that their imports reach."""
     found: set[Path] = set()
-    waiting = [PACKAGE / module, PACKAGE / "run.py"]
+    waiting = list(sources)
     while waiting:
         path = waiting.pop()
-        if path not in found:
+        if path not in found and not _outside(path):
             found.add(path)
             waiting += _imported(path)
-    text = b"".join(path.read_bytes() for path in sorted(found) if path.name not in OUTSIDE)
+    text = b"".join(path.read_bytes() for path in sorted(found))
     return hashlib.sha256(text).hexdigest()[:16]
 
 
+def _outside(path: Path) -> bool:
+    inside = path.is_relative_to(PACKAGE)
+    return inside and any(path.is_relative_to(PACKAGE / name) for name in OUTSIDE)
+
+
 def _imported(path: Path) -> list[Path]:
-    """Sources that the relative imports of a source name."""
+    """Modules of `jdsmc` that a module imports, anywhere in it.
+
+    `from .ops import collide` means the module `ops/collide.py`, or else whatever `ops/__init__.py`
+    re-exports it from: then all that the latter imports.
+    """
     sources = []
     for node in ast.walk(ast.parse(path.read_text())):
-        if isinstance(node, ast.ImportFrom) and node.level:
-            base = path.parents[node.level - 1].joinpath(*(node.module or "").split("."))
-            names = [base, *(base / alias.name for alias in node.names)]
-            sources += [p for p in (n.with_suffix(".py") for n in names) if p.is_file()]
-    return sources
+        if isinstance(node, ast.ImportFrom):
+            base = _base(path, node)
+            if base is None:
+                continue
+            for alias in node.names:
+                inner = _file(base / alias.name)
+                sources.append(inner if inner else _file(base))
+        elif isinstance(node, ast.Import):
+            parts = [alias.name.split(".") for alias in node.names]
+            sources += [_file(PACKAGE.joinpath(*p[1:])) for p in parts if p[0] == PACKAGE.name]
+    return [source for source in sources if source]
 
 
-def _save(result: Result, path: Path) -> None:
-    """Write under another name first, so that a half-written file is never taken for a result."""
-    partial = path.with_suffix(".partial.h5")
-    result.save(partial, overwrite=True)
-    partial.replace(path)
+def _base(path: Path, node: ast.ImportFrom) -> Path | None:
+    """What `from ... import` names, without suffix; None outside `jdsmc`."""
+    parts = (node.module or "").split(".") if node.module else []
+    if node.level:
+        base = path.parents[node.level - 1].joinpath(*parts)
+        return base if base.is_relative_to(PACKAGE) else None
+    return PACKAGE.joinpath(*parts[1:]) if parts[:1] == [PACKAGE.name] else None
+
+
+def _file(base: Path) -> Path | None:
+    """The source of a module or package."""
+    return next((p for p in (base.with_suffix(".py"), base / "__init__.py") if p.is_file()), None)

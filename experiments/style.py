@@ -1,4 +1,4 @@
-"""What all figures share: colours, line styles, bands and saving."""
+"""What all figures share: colours, line styles, bands, points and saving."""
 
 from pathlib import Path
 
@@ -7,9 +7,14 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from jdsmc import Estimate
+
 DPI = 110
 
-COLOURS = ("#1b4f9c", "#c0392b", "#2e8b57", "#8e44ad")
+COLOURS = ("#1b4f9c", "#c0392b", "#2e8b57", "#8e44ad", "#d08a00")
+
+OPEN = {"linestyle": "none", "capsize": 2, "markersize": 6, "markerfacecolor": "none"}
+"""Open symbols with error bars."""
 
 
 def figure(rows: int, columns: int, width: float, height: float, **options):
@@ -20,11 +25,16 @@ def figure(rows: int, columns: int, width: float, height: float, **options):
     return found, axes
 
 
-def band(ax, x, y, error, *, color, linestyle="-", sign=1.0) -> None:
+def band(ax, x, found: Estimate, color, linestyle="-", label=None) -> None:
     """A line with a band of one standard error on either side."""
-    x, y, error = (np.asarray(part, float) for part in (x, sign * y, error))
-    ax.plot(x, y, color=color, linestyle=linestyle, linewidth=1.2)
+    x, y, error = (np.asarray(part, float) for part in (x, *found))
+    ax.plot(x, y, color=color, linestyle=linestyle, linewidth=1.2, label=label)
     ax.fill_between(x, y - error, y + error, color=color, alpha=0.25, linewidth=0)
+
+
+def points(ax, x, found: Estimate, **look) -> None:
+    """Open symbols with error bars."""
+    ax.errorbar(x, *found, **{"fmt": "o"} | OPEN | look)
 
 
 def legend_of(entries: dict[str, dict]) -> list[Line2D]:

@@ -17,6 +17,8 @@ class Estimate:
     correlated through its realizations, what stems from different runs is independent.
     """
 
+    __array_ufunc__ = None  # array - estimate comes here, too, instead of making an array of them
+
     def __init__(self, value, error, left_out: dict[Any, np.ndarray] | None = None):
         """`left_out`: for every run, the values with one realization left out (R, ...)."""
         self.value, self.error = value, error

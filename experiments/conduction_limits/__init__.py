@@ -1,1 +1,5 @@
 """Heat conduction at small gradients: known coefficients, from the Fourier flow."""
+
+from .coefficients import PAPER
+
+__all__ = ["PAPER"]

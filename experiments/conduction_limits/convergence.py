@@ -7,29 +7,29 @@ the local mean free path and speed: κ (1 + (32/225π)(Δz/λ)²) (Alexander, Ga
 changes by their average over the slab.
 """
 
-import json
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 
-import matplotlib as mpl
 import numpy as np
-import tyro
-from jdsmc.result import format_estimate
 
-from jdsmc import InelasticHardSpheres, Result, run
+from jdsmc import Estimate, InelasticHardSpheres
 from jdsmc.scenarios import FourierFlow
 
-from ..publish import output_folder, results_folder
-from ..store import obtain
-from .analysis import discretization
-from .convergence_figure import draw, relative
+from ..case import Case, Measurements
+from ..markdown import grid
+from ..numbers import over_parts, stack
+from ..paper import Paper
+from .coefficients import discretization
 
-RESULTS = Path(__file__).parent / "results"
 COLD, LENGTH = 0.2, 10.0
-TOTAL, SMALL_TIME, FULL_TIME = 80_000, 400.0, 1_600.0
-"""Particles of all realizations together, and the time simulated."""
 STEPS = 8
 """Time steps between two samples."""
+
+BOUND = 0.3
+"""Percent of the heat flux that the defaults may be off."""
+
+SHIFT = 4e-4
+"""Of time steps, so that error bars do not cover each other."""
 
 
 @dataclass(frozen=True)
@@ -52,122 +52,126 @@ SETTINGS = (
 )
 
 
-@dataclass(frozen=True)
-class Case:
-    """The simulation of one setting."""
+class Fluxes(Measurements):
+    """The heat flux of every setting, off that of the walls at the defaults.
 
-    seed: int
-    setting: Setting
-    duration: float
-    module: str = "scenarios/fourier_flow.py"
+    `setting`, `walls`, `sampled` (%), `step` really taken, `law` (relative): lists over `SETTINGS`.
+    """
 
-    @property
-    def name(self) -> str:
-        """Name of its file."""
-        return f"convergence_{self.seed:02}"
+    def __init__(self, size, folder: Path, fresh: bool):
+        cases = []
+        for number, s in enumerate(SETTINGS):
+            slab = {"cold_temperature": COLD, "length": LENGTH, "layers": s.layers}
+            scene = FourierFlow(gas=InelasticHardSpheres(1.0), **slab)
+            particles = min(s.particles, size.study_particles // 8)
+            options = {"n_particles": particles, "time_step": s.time_step}
+            options |= {"n_realizations": size.study_particles // particles}
+            options |= {"splitting": s.splitting, "steps_per_record": STEPS}
+            options["duration"] = size.study_time
+            cases.append(Case(f"convergence_{number:02}", scene, options))
+        super().__init__(size, cases, folder, fresh)
+        self.fluxes = [_fluxes(result) for result in self.results.values()]
+        self.step, self.law = [], []
+        for result in self.results.values():
+            records = np.diff(result.series["time"].values)[1:]
+            self.step.append(float(np.mean(records)) / (STEPS * FourierFlow.samples_per_record))
+            state = result.steady["density"].values, result.steady["temperature"].values
+            width = LENGTH / len(state[0])
+            self.law.append(float(np.mean(discretization(*state, width, self.step[-1]))))
 
-    def request(self) -> str:
-        """Everything that decides the result, as text to compare with a file's."""
-        return json.dumps([asdict(self), COLD, LENGTH, TOTAL], sort_keys=True)
+    def off(self, which: int) -> list[Estimate]:
+        """Percent off the default; `which`: 0 from the walls, 1 sampled. Its error is left out."""
+        start = float(self.fluxes[0][0])
+        return [100.0 * (found[which] / start - 1.0) for found in self.fluxes]
 
-    def simulate(self) -> Result:
-        """Run it."""
-        setting = self.setting
-        scene = FourierFlow(InelasticHardSpheres(1.0), COLD, length=LENGTH, layers=setting.layers)
-        return run(
-            scene,
-            n_particles=setting.particles,
-            n_realizations=TOTAL // setting.particles,
-            duration=self.duration,
-            time_step=setting.time_step,
-            splitting=setting.splitting,
-            steps_per_record=STEPS,
-            seed=self.seed,
-            progress=False,
-        )
-
-
-@dataclass(frozen=True)
-class Measured:
-    """Fluxes of one setting with their errors, the step really taken, and the known laws."""
-
-    setting: Setting
-    sampled: tuple[float, float]
-    walls: tuple[float, float]
-    step: float
-    law: float
+    def of(self, study: str, splitting: str = "strang") -> np.ndarray:
+        """Numbers of the settings of a study, the defaults among them."""
+        wanted = ("defaults", study)
+        chosen = [s.study in wanted and s.splitting == splitting for s in SETTINGS]
+        return np.flatnonzero(chosen)
 
 
-def measure(setting: Setting, result: Result) -> Measured:
-    """What the study needs of a simulation."""
+def _fluxes(result) -> tuple[Estimate, Estimate]:
+    """From the walls, and sampled."""
     data = result.to_xarray()["realizations"].to_dataset()
     walls = 0.5 * (data["heat_flux_cold_wall"] + data["heat_flux_hot_wall"]).values
-    sampled = data["mean_heat_flux"].values
-    step = float(np.mean(np.diff(result.series["time"].values)[1:])) / (
-        STEPS * FourierFlow.samples_per_record
-    )
-    return Measured(setting, _mean(sampled), _mean(walls), step, _law(result, step))
+    return over_parts(walls), over_parts(data["mean_heat_flux"].values)
 
 
-def _mean(values) -> tuple[float, float]:
-    return float(np.mean(values)), float(np.std(values, ddof=1) / np.sqrt(len(values)))
+PAPER = Paper("conduction_limits.convergence", Fluxes, "convergence")
 
 
-def _law(result, step: float) -> float:
-    """Relative error of the flux by the known laws."""
-    steady = result.to_xarray().to_dataset()
-    density, temperature = steady["density"].values, steady["temperature"].values
-    return float(np.mean(discretization(density, temperature, LENGTH / len(density), step)))
+def at_the_defaults(data: Fluxes) -> str:
+    """The fluxes behind all percentages."""
+    walls, sampled = data.fluxes[0]
+    return f"{walls} from the walls, {sampled} sampled; law: {100 * data.law[0]:+.3f}%"
 
 
-def main(full: bool = False, out: Path | None = None, fresh: bool = False):
-    """Measure every setting; write convergence.md and convergence.png.
-
-    Args:
-        full: four times longer runs, about twenty minutes on two cores.
-        out: folder for simulations (*.h5, reused if they are what is asked for); by default
-            output/conduction_limits/small or full.
-        fresh: run every simulation again.
-    """
-    mpl.use("agg")
-    size = "full" if full else "small"
-    store = output_folder("conduction_limits", size, out)
-    found = []
-    for seed, setting in enumerate(SETTINGS):
-        case = Case(seed, setting, FULL_TIME if full else SMALL_TIME)
-        found.append(measure(setting, obtain(case, store, fresh)))
-        print(_row(found[-1], found[0]), flush=True)
-    folder = results_folder(RESULTS, size)
-    (folder / "convergence.md").write_text(_table(found))
-    draw(found, LENGTH).savefig(folder / "convergence.png", dpi=130)
-
-
-def _table(found: list[Measured]) -> str:
-    reference = found[0]
-    lines = [
-        "# Fourier flow: time step, layers, particles\n",
-        f"T_- = {COLD:g} T_+, L = {LENGTH:g} λ0. Heat flux from the walls and sampled in the gas, "
-        "in percent off the walls' value at the defaults; one standard error in brackets. The law "
-        "is relative to no discretization at all.\n",
-        f"At the defaults: {format_estimate(*reference.walls)} from the walls, "
-        f"{format_estimate(*reference.sampled)} sampled; law: {100 * reference.law:+.3f}%.\n",
-        "| study | splitting | dt asked | dt taken | layers | N | walls | sampled | law |",
-        "| --- | --- | --- | --- | --- | --- | --- | --- | --- |",
-        *(_row(one, reference) for one in found),
+def settings(data: Fluxes) -> list[str]:
+    """What every setting gives."""
+    columns = SETTINGS, data.step, data.off(0), data.off(1), data.law
+    rows = [
+        [
+            *(s.study, s.splitting, f"{s.time_step:g}", f"{step:.4f}", s.layers, s.particles),
+            *(walls, sampled, f"{100 * law:.3f}"),
+        ]
+        for s, step, walls, sampled, law in zip(*columns, strict=True)
     ]
-    return "\n".join(lines) + "\n"
+    header = ["study", "splitting", "dt asked", "dt taken", "layers", "N"]
+    return grid([*header, "walls", "sampled", "law"], rows)
 
 
-def _row(one: Measured, reference: Measured) -> str:
-    s = one.setting
-    cells = [
-        *(s.study, s.splitting, f"{s.time_step:g}", f"{one.step:.4f}"),
-        *(str(s.layers), str(s.particles)),
-        *(format_estimate(*relative(x, reference.walls[0])) for x in (one.walls, one.sampled)),
-        f"{100 * one.law:.3f}",
-    ]
-    return "| " + " | ".join(cells) + " |"
+@PAPER.figure("convergence", 1, 3, 11, 3.6)
+def draw(data: Fluxes, axes) -> None:
+    """Three panels: against dt, layer width, and particles per layer."""
+    panels = axes[0]
+    _against_time_step(panels[0], data)
+    for panel, study, x in (
+        (panels[1], "layers", [LENGTH / s.layers for s in SETTINGS]),
+        (panels[2], "particles", [s.particles / s.layers for s in SETTINGS]),
+    ):
+        chosen = data.of(study)
+        look = {"fmt": "s", "mfc": "none", "label": "walls", "capsize": 2, "ms": 5}
+        panel.errorbar(np.array(x)[chosen], *_chosen(data, 0, chosen), **look)
+    chosen = data.of("layers")
+    chosen = chosen[np.argsort([-SETTINGS[k].layers for k in chosen])]
+    width = [LENGTH / SETTINGS[k].layers for k in chosen]
+    law = 100 * (np.array(data.law)[chosen] - data.law[0])
+    panels[1].plot(width, law, "k-", lw=1, label="(32/225π)⟨(Δz/λ)²⟩")
+    panels[2].set_xscale("log")
+    for panel, label in zip(panels, ("dt/τ0", "Δz/λ0", "particles per layer"), strict=True):
+        panel.axhspan(-BOUND, BOUND, color="0.9", zorder=0)
+        panel.axhline(0, color="0.6", lw=0.8)
+        panel.set_xlabel(label)
+        panel.legend(fontsize=8, frameon=False)
+    panels[0].set_ylabel("heat flux, % off the default (walls)")
 
+
+def _chosen(data: Fluxes, which: int, chosen) -> Estimate:
+    off = data.off(which)
+    return stack(off[k] for k in chosen)
+
+
+def _against_time_step(panel, data: Fluxes) -> None:
+    """Both splittings; a line through what first order leaves in the sampled heat flux."""
+    step, off = np.array(data.step), Estimate(0.0, 0.0)
+    for splitting, colours, side in (("strang", ("C0", "C2"), -1), ("lie", ("C1", "C3"), 1)):
+        chosen = data.of("time step", splitting)
+        for which, name in enumerate(("walls", "sampled")):
+            look = {"fmt": "so"[which], "color": colours[which], "capsize": 2, "ms": 5}
+            look |= {"label": f"{splitting.title()}, {name}"}
+            look |= {"mfc": None if splitting == "strang" else "none"}
+            off = _chosen(data, which, chosen)
+            panel.errorbar(step[chosen] + side * SHIFT, *off, **look)
+    x = step[chosen]  # of the last: Lie, sampled
+    slope = np.sum(x * off.value) / np.sum(x**2)
+    panel.plot([0.0, x.max()], [0.0, slope * x.max()], "C3:", lw=1, label="first order")
+    panel.set_xlim(left=0)
+
+
+PAPER.tables |= {"at_the_defaults": at_the_defaults, "settings": settings}
 
 if __name__ == "__main__":
-    tyro.cli(main)
+    from ..__main__ import cli
+
+    cli("conduction_limits.convergence")

@@ -4,3 +4,9 @@ with a gravity field" (2000): figures 2 to 7, tables 2 to 5 and all that the tex
 Run it with `python -m experiments.fourier_flow_gravity`; README.md tells how the files divide the
 work.
 """
+
+from . import claims, figures, tables
+from .data import PAPER
+
+__all__ = ["PAPER", "figures"]
+PAPER.take([claims], [tables])

@@ -19,6 +19,8 @@ import xarray as xr
 
 from jdsmc import Estimate
 
+from ..numbers import over_parts
+
 CELL = 32.0 / (225.0 * np.pi)
 """Heat that is exchanged across a layer of thickness λ', over the heat that is carried."""
 
@@ -33,27 +35,22 @@ class Uniformity(NamedTuple):
     """Test of a profile that should be uniform.
 
     `statistic`: Q, `expected`: its mean if it is uniform; `probability`: of a Q as large;
-    `deviation` from the mean over the layers, and its `error`.
+    `deviation` from the mean over the layers.
     """
 
     statistic: float
     expected: float
     probability: float
-    deviation: np.ndarray
-    error: np.ndarray
+    deviation: Estimate
 
 
 def uniformity(profile: np.ndarray) -> Uniformity:
     """Test a profile (realizations, layers)."""
-    count, _ = profile.shape
     from_mean = profile - np.mean(profile, axis=1, keepdims=True)
-    signs = _signs(count)
-    flipped = np.array([_statistic(s[:, None] * from_mean) for s in signs])
+    flipped = np.array([_statistic(s[:, None] * from_mean) for s in _signs(len(profile))])
     observed = _statistic(from_mean)
-    error = np.std(from_mean, axis=0, ddof=1) / np.sqrt(count)
     probability = float(np.mean(flipped >= observed * (1 - 1e-9)))
-    deviation = np.mean(from_mean, axis=0)
-    return Uniformity(observed, float(np.mean(flipped)), probability, deviation, error)
+    return Uniformity(observed, float(np.mean(flipped)), probability, over_parts(from_mean))
 
 
 def _statistic(deviations: np.ndarray) -> float:
@@ -74,56 +71,42 @@ def _signs(count: int) -> np.ndarray:
 def energy(realizations: xr.Dataset, thin: bool = True) -> Uniformity:
     """(13): the heat flux is uniform. In `thin` layers with what is exchanged across them, or in
     all layers as it is carried."""
-    flux = _layers(realizations, "heat_flux")
+    flux = realizations["heat_flux"].values
     if not thin:
         return uniformity(flux)
-    used = thickness(realizations) <= THIN
-    return uniformity((flux * (1.0 + exchange(realizations)))[:, used])
-
-
-def exchange(realizations: xr.Dataset) -> np.ndarray:
-    """Heat exchanged across each layer over heat carried: (32/225π)(n Δz)²."""
-    return CELL * thickness(realizations) ** 2
+    thick = thickness(realizations)
+    return uniformity((flux * (1.0 + CELL * thick**2))[:, thick <= THIN])
 
 
 def thickness(realizations: xr.Dataset) -> np.ndarray:
     """Δz/λ' of each layer."""
     z = realizations["z"].values
-    return np.mean(_layers(realizations, "density"), axis=0) * (z[1] - z[0])
+    return np.mean(realizations["density"].values, axis=0) * (z[1] - z[0])
 
 
 def momentum(realizations: xr.Dataset, thin: bool = True) -> Uniformity:
     """(12), integrated: P_zz + g ∫n dz is uniform (n̄ m v0²), in all layers or the `thin` ones."""
-    density, z = _layers(realizations, "density"), realizations["z"].values
+    density, z = realizations["density"].values, realizations["z"].values
     below = (np.cumsum(density, axis=1) - 0.5 * density) * (z[1] - z[0])
-    sum_of_both = _layers(realizations, "pressure_zz") + float(realizations["gravity"]) * below
-    used = thickness(realizations) <= THIN if thin else slice(None)
-    return uniformity(sum_of_both[:, used])
+    both = realizations["pressure_zz"].values + float(realizations["gravity"]) * below
+    return uniformity(both[:, thickness(realizations) <= THIN] if thin else both)
 
 
 def slope(realizations: xr.Dataset) -> Estimate:
     """Σ ΔP_zz/Δz over -g Σ n between neighbouring thin layers, weighted with n: (12) says 1."""
     gravity, z = float(realizations["gravity"]), realizations["z"].values
     thin = thickness(realizations) <= THIN
-    density, stress = (_layers(realizations, n)[:, thin] for n in ("density", "pressure_zz"))
+    density, stress = (realizations[n].values[:, thin] for n in ("density", "pressure_zz"))
     between = 0.5 * (density[:, 1:] + density[:, :-1])
     weight = np.mean(between, axis=0)
     gain = np.diff(stress, axis=1) / (z[1] - z[0])
-    each = np.sum(weight * gain, axis=1) / (-gravity * np.sum(weight * np.mean(between, axis=0)))
-    return Estimate(float(np.mean(each)), float(np.std(each, ddof=1) / np.sqrt(len(each))))
+    return over_parts(
+        np.sum(weight * gain, axis=1) / (-gravity * np.sum(weight * np.mean(between, axis=0)))
+    )
 
 
 def walls(realizations: xr.Dataset) -> dict[str, Estimate]:
     """Heat flux through the gas, and at each wall minus that: realization by realization."""
     gas = realizations["mean_heat_flux"].values
-    found = {"gas": gas}
-    for side in ("cold", "hot"):
-        found[side] = realizations[f"heat_flux_{side}_wall"].values - gas
-    return {
-        name: Estimate(float(np.mean(v)), float(np.std(v, ddof=1) / np.sqrt(len(v))))
-        for name, v in found.items()
-    }
-
-
-def _layers(realizations: xr.Dataset, name: str) -> np.ndarray:
-    return realizations[name].transpose("realization", "z").values
+    sides = {side: realizations[f"heat_flux_{side}_wall"].values for side in ("cold", "hot")}
+    return {"gas": over_parts(gas)} | {s: over_parts(flux - gas) for s, flux in sides.items()}

@@ -5,16 +5,34 @@ scatter about a polynomial of degree 4 in g, which is all that a smooth function
 error that all rows of a table have in common, such as that of ε0, is not in this estimate.
 """
 
+from functools import cache
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from jdsmc.gravity_effect import linear_response
 
 from jdsmc import Estimate
+from jdsmc.results.gravity_effect import linear_response
 
-from .data import Measurements
-from .reference import COLUMNS, HALF_WIDTHS, table
-from .systems import Combination
+from .cases import COMBINATIONS, Combination
+from .data import Fourier
+
+SYMBOLS = {
+    "z0": "z0",
+    "mean_free_paths": "𝒩(z0)",
+    "reduced_gravity": "g*",
+    "kappa_star": "κ*",
+    "kappa_star_change": "Δκ*",
+}
+"""Columns of tables 2 to 5 after g, by the names of `jdsmc.results.gravity_effect`."""
+
+DIGITS = dict(zip(SYMBOLS, (2, 1, 3, 3, 3), strict=True))
+
+HALF_WIDTHS = dict(zip(SYMBOLS, (0.025, 0.05, 0.0005, 0.0005, 0.0005), strict=True))
+"""Half a unit of the last digit; z0 is given in steps of 0.05, half a layer."""
+
+PAPER_GRADIENT = dict(zip(COMBINATIONS, (0.33, 0.36, 0.44, 0.48), strict=True))
+"""ε0 of the paper's tables."""
 
 DEGREE = 4
 """Of the polynomials in g about which the scatter of the paper's columns is taken."""
@@ -22,22 +40,41 @@ DEGREE = 4
 AGREEMENT = 2.0
 """Combined standard errors that still count as agreement."""
 
+NARROW = 0.05
+"""|g*| up to which B is fitted again: does it depend on the range?"""
+
+
+@cache
+def table(combination: Combination) -> dict[str, np.ndarray]:
+    """One of tables 2 to 5: `gravity` and the columns of `SYMBOLS`, arrays over its rows."""
+    lines = (Path(__file__).parent / "tables.txt").read_text().splitlines()
+    rows = [line.split() for line in lines if not line.startswith("#")]
+    key = [f"{combination.cold:g}", combination.wall]
+    columns = np.array([row[2:] for row in rows if row[:2] == key], float).T
+    return dict(zip(("gravity", *SYMBOLS), columns, strict=True))
+
 
 class Cell(NamedTuple):
-    """A number of tables 2 to 5 and ours; `distance` is ours minus the paper's in combined errors.
+    """A number of tables 2 to 5 and ours; `difference` is ours minus the paper's.
 
-    The combined error is made of ours, of the paper's scatter and of its rounding; None where both
-    are zero by definition.
+    Its error is made of ours, of the paper's scatter and of its rounding; None where both are zero
+    by definition, or where our profile has no point with ε0, at least with one realization left
+    out.
     """
 
     paper: float
     ours: Estimate
-    distance: float | None
+    difference: Estimate | None
 
     @property
     def known(self) -> bool:
-        """False if our profile has no point with ε0, at least with one realization left out."""
+        """False if our profile has no point with ε0."""
         return bool(np.isfinite(self.ours.value) and np.isfinite(self.ours.error))
+
+    @property
+    def distance(self) -> float | None:
+        """The difference in combined errors."""
+        return None if self.difference is None else float(self.difference.distance(0.0))
 
 
 class Row(NamedTuple):
@@ -51,14 +88,9 @@ class Row(NamedTuple):
         """Agrees, or what differs and by how many combined errors."""
         if not self.cells["kappa_star"].known:
             return "not comparable: no point with ε0"
-        far = {n: c.distance for n, c in self.cells.items() if c.distance is not None}
-        far = {n: d for n, d in far.items() if abs(d) > AGREEMENT}
-        if not far:
-            return "agrees"
-        return "differs: " + ", ".join(f"{SYMBOLS[n]} {d:+.1f} σ" for n, d in far.items())
-
-
-SYMBOLS: dict[str, str] = dict(zip(COLUMNS, ("z0", "𝒩(z0)", "g*", "κ*", "Δκ*"), strict=True))
+        far = [(n, c.distance) for n, c in self.cells.items() if c.distance is not None]
+        far = [f"{SYMBOLS[n]} {d:+.1f} σ" for n, d in far if abs(d) > AGREEMENT]
+        return "differs: " + ", ".join(far) if far else "agrees"
 
 
 def scatter(combination: Combination, name: str) -> float:
@@ -74,65 +106,44 @@ def scatter(combination: Combination, name: str) -> float:
     return float(np.sqrt(np.sum(rest**2) / (len(rest) - DEGREE - 1)))
 
 
-def rows(data: Measurements, combination: Combination) -> list[Row]:
+def rows(data: Fourier, combination: Combination) -> list[Row]:
     """The rows of a table of which we have the state."""
     effect, paper, found = data.effects[combination], table(combination), []
+    gravities = np.array(data.gravity[combination])
     for k, gravity in enumerate(paper["gravity"]):
-        at = np.flatnonzero(np.isclose(effect["gravity"].values, gravity))
-        if len(at):
-            here = effect.isel(gravity=int(at[0]))
-            cells = {n: _cell(combination, n, paper[n][k], here) for n in COLUMNS}
+        for at in np.flatnonzero(np.isclose(gravities, gravity)):
+            cells = {n: _cell(combination, n, paper, k, effect[n][at]) for n in SYMBOLS}
             found.append(Row(float(gravity), cells))
     return found
 
 
-def _cell(combination: Combination, name: str, paper: float, here) -> Cell:
-    ours = Estimate(float(here[name]), float(here[f"{name}_error"]))
+def _cell(combination: Combination, name: str, paper: dict, k: int, ours: Estimate) -> Cell:
+    cell = Cell(float(paper[name][k]), ours, None)
     defined = name in ("mean_free_paths", "reduced_gravity", "kappa_star_change")
-    cell = Cell(float(paper), ours, None)
-    if not cell.known or (defined and float(here["gravity"]) == 0.0):
+    if not cell.known or (defined and paper["gravity"][k] == 0.0):
         return cell
-    rounding = HALF_WIDTHS[name] / 3**0.5
-    error = np.sqrt(ours.error**2 + scatter(combination, name) ** 2 + rounding**2)
-    return cell._replace(distance=float((ours.value - paper) / error))
+    error = np.hypot(scatter(combination, name), HALF_WIDTHS[name] / 3**0.5)
+    return cell._replace(difference=ours - Estimate(cell.paper, error))
 
 
-class Summary(NamedTuple):
-    """All rows of one column of a table together.
+def summary(data: Fourier, combination: Combination, name: str) -> tuple[str, Estimate, float]:
+    """All rows of one column of a table together: how many agree, the mean difference, χ²/rows.
 
-    `offset`: mean of ours minus the paper's, and its error if the rows were independent;
-    `chi2`: mean of the squared distances.
+    The difference is ours minus the paper's, with its error if the rows were independent.
     """
-
-    agreeing: int
-    count: int
-    offset: Estimate
-    chi2: float
-
-
-def summary(data: Measurements, combination: Combination, name: str) -> Summary:
-    """One column of a table."""
-    cells = [row.cells[name] for row in rows(data, combination)]
-    cells = [cell for cell in cells if cell.distance is not None]
-    distance = np.array([cell.distance for cell in cells])
-    difference = np.array([cell.ours.value - cell.paper for cell in cells])
-    error = difference / np.where(distance == 0, 1.0, distance)
-    offset = Estimate(
-        float(np.mean(difference)), float(np.sqrt(np.sum(error**2)) / len(difference))
-    )
-    agreeing = int(np.sum(np.abs(distance) <= AGREEMENT))
-    return Summary(agreeing, len(cells), offset, float(np.mean(distance**2)))
+    found = [row.cells[name].difference for row in rows(data, combination)]
+    value, error = np.array([(one.value, one.error) for one in found if one is not None]).T
+    distance = value / error
+    offset = Estimate(np.mean(value), np.sqrt(np.sum(error**2)) / len(error))
+    agreeing = f"{np.sum(np.abs(distance) <= AGREEMENT)} of {len(value)}"
+    return agreeing, offset, float(np.mean(distance**2))
 
 
-NARROW = 0.05
-"""|g*| up to which B is fitted again: does it depend on the range?"""
-
-
-def narrow_response(data: Measurements, combination: Combination) -> Estimate | None:
+def narrow_response(data: Fourier, combination: Combination) -> Estimate | str:
     """B from the states with |g*| <= `NARROW` alone, if there are more than three."""
-    strength = data.effects[combination]["reduced_gravity"].values
+    strength = data.effects[combination]["reduced_gravity"].value
     if np.sum(np.abs(strength) <= NARROW) < 4:
-        return None
+        return ""
     return linear_response(data.sweep(combination), largest=NARROW)["B"]
 
 
@@ -140,14 +151,6 @@ def paper_response(combination: Combination) -> dict[str, Estimate]:
     """The same from the paper's table: least squares with equal weights, errors from the misfit."""
     columns = table(combination)
     best, covariance = np.polyfit(columns["reduced_gravity"], columns["kappa_star"], 2, cov=True)
-    error = np.sqrt(np.diag(covariance))
-    gradient = PAPER_GRADIENT[combination.key]
-    return {
-        "B": Estimate(float(best[1] / gradient), float(error[1] / gradient)),
-        "C": Estimate(float(best[0]), float(error[0])),
-        "kappa_star": Estimate(float(best[2]), float(error[2])),
-    }
-
-
-PAPER_GRADIENT = {"0.05 maxwell": 0.33, "0.05 bgk": 0.36, "0.01 maxwell": 0.44, "0.01 bgk": 0.48}
-"""ε0 of the paper's tables."""
+    pairs = zip(best, np.sqrt(np.diag(covariance)), strict=True)
+    fit = dict(zip(("C", "B", "kappa_star"), (Estimate(*pair) for pair in pairs), strict=True))
+    return fit | {"B": fit["B"] / PAPER_GRADIENT[combination]}

@@ -2,15 +2,15 @@
 
 from typing import NamedTuple
 
-import numpy as np
-
 from jdsmc import Estimate
 from jdsmc.theory import sonine_elastic
 from jdsmc.theory.transport import first_sonine, modified_first_sonine
+from jdsmc.units import CONVERGED_ORDER
 
-from .data import Measurements
-from .limits import CONDUCTIVITY, fit, limit
-from .systems import KICK_STEP, kick_name
+from ..numbers import Even
+from .cases import KICK_STEP
+from .data import Heat, Pool
+from .limits import CONDUCTIVITY, limit
 
 NAMES = {
     "modified_conductivity": "κ'/κ0",
@@ -18,9 +18,6 @@ NAMES = {
     "density_coefficient": "nμ/(Tκ0)",
     "viscosity": "η/η0",
 }
-
-ELASTIC_ORDER = 10
-"""Sonine polynomials of the elastic values: converged to all digits shown."""
 
 
 class Coefficient(NamedTuple):
@@ -31,63 +28,50 @@ class Coefficient(NamedTuple):
     one; `tail`: the part of the integral that is extrapolated in time, at the default kick.
     """
 
-    name: str
-    restitution: float
     kicks: list[Estimate]
     limit: Estimate
     excess: Estimate
-    by_step: Estimate
+    by_step: Estimate | None
     tail: float
     theory: tuple[float, float]
 
 
-def kick_strengths(data: Measurements) -> list[float]:
+def kick_strengths(data: Heat) -> list[float]:
     """Kicks that were run at the default time step; the first is the default kick."""
-    return sorted(kick for kick, step in data.size.kicks if step == KICK_STEP)
+    return sorted(kick for kick, step, _ in data.size.kicks if step == KICK_STEP)
 
 
-def short_step(data: Measurements) -> float | None:
-    """The other time step, if there is one."""
-    step = min(step for _, step in data.size.kicks)
-    return None if step == KICK_STEP else step
+def kicked(data: Heat, kick: float, step: float = KICK_STEP) -> Pool:
+    """The impulse response at a kick and a time step."""
+    return data[f"kick_{kick:g}_dt{step:g}"]
 
 
-def coefficient(data: Measurements, name: str, restitution: float) -> Coefficient:
+def coefficient(data: Heat, name: str, restitution: float) -> Coefficient:
     """One coefficient with its checks."""
     strengths = kick_strengths(data)
-    pools = [data[kick_name(kick, KICK_STEP)] for kick in strengths]
+    pools = [kicked(data, kick) for kick in strengths]
     kicks = [pool.value(name, restitution) for pool in pools]
-    fitted = fit(strengths, *(np.array(x) for x in zip(*kicks, strict=True)), (1,))
-    by_step, step = Estimate(np.nan, np.nan), short_step(data)
-    if step is not None:
-        short = data[kick_name(strengths[0], step)].value(name, restitution)
-        by_step = _difference(kicks[0], short)
-    tail = 0.0
-    if name != "density_coefficient":
-        tail = pools[0].value(f"{name}_tail", restitution).value
-    first, modified = (
-        float(getattr(model(restitution), name)) for model in (first_sonine, modified_first_sonine)
-    )
-    at_default = fitted.at(strengths[0]).value - fitted.value.value
-    slope_error = float(np.sqrt(fitted.covariance[1, 1])) * strengths[0] ** 2
+    fitted = Even(strengths, kicks, (1,))
+    by_step, short = None, min(step for _, step, _ in data.size.kicks)
+    if short < KICK_STEP:
+        other = kicked(data, strengths[0], short)
+        by_step = kicks[0] - other.value(name, restitution)
+    models = first_sonine(restitution), modified_first_sonine(restitution)
     return Coefficient(
-        name,
-        restitution,
         kicks,
-        fitted.value,
-        Estimate(at_default, slope_error),
+        fitted.limit,
+        fitted.value(strengths[0]) - fitted.limit,
         by_step,
-        tail,
-        (first, modified),
+        float(pools[0].value(f"{name}_tail", restitution).value),
+        (float(getattr(models[0], name)), float(getattr(models[1], name))),
     )
 
 
-def both_routes(data: Measurements, restitution: float) -> tuple[Estimate, Estimate, float]:
+def both_routes(data: Heat, restitution: float) -> tuple[Estimate, Estimate, float]:
     """κ' by impulse response and by the force, both extrapolated, and their difference over σ."""
-    impulse = coefficient(data, "modified_conductivity", restitution).limit
-    force = limit(data, CONDUCTIVITY, restitution).value
-    difference = _difference(impulse, force)
-    return impulse, force, difference.value / difference.error
+    impulse = coefficient(data, CONDUCTIVITY.name, restitution).limit
+    force = limit(data, CONDUCTIVITY, restitution).limit
+    return impulse, force, float(impulse.distance(force))
 
 
 def elastic(name: str) -> float:
@@ -95,9 +79,5 @@ def elastic(name: str) -> float:
     if name == "density_coefficient":
         return 0.0
     if name == "viscosity":
-        return sonine_elastic.viscosity_ratio(ELASTIC_ORDER)
-    return sonine_elastic.conductivity_ratio(ELASTIC_ORDER)
-
-
-def _difference(one: Estimate, other: Estimate) -> Estimate:
-    return Estimate(one.value - other.value, float(np.hypot(one.error, other.error)))
+        return sonine_elastic.viscosity_ratio(CONVERGED_ORDER)
+    return sonine_elastic.conductivity_ratio(CONVERGED_ORDER)

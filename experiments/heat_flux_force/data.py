@@ -1,65 +1,59 @@
 """What was measured: equal simulations pooled, looked up by restitution, field and name."""
 
-from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
 
 from jdsmc import Estimate, Result
 
-from ..store import obtain
-from .systems import Size, Study, steady_name, studies, transient_name
+from ..case import Case, Measurements, at, estimate, steady
+from ..numbers import Even, mean, stack
+from ..paper import Paper
+from .cases import studies
 
 
 class Pool:
-    """Several equal simulations: means over them, errors from the realizations of all."""
+    """Equal simulations of different seeds: means over them, which all weigh the same."""
 
-    def __init__(self, study: Study, results: list[Result]):
-        self.study, self.results = study, results
-        self._roots = [result.to_xarray().to_dataset() for result in results]
+    def __init__(self, cases: list[Case], results: list[Result]):
+        self.cases, self.results = cases, results
+        self._means: dict[tuple, Estimate] = {}
 
-    def parts(self, name: str, restitution: float, order: int | None = None) -> Estimate:
-        """A steady value of every part: arrays (parts,)."""
-        points = [at(root, restitution, order) for root in self._roots]
-        pairs = [[float(p[n]) for n in (name, f"{name}_error")] for p in points]
-        return Estimate(*np.array(pairs).T)
+    def parts(self, name: str, restitution: float, order: int | None = None) -> list[Estimate]:
+        """A steady value of every part."""
+        found = [steady(result, name, restitution=restitution) for result in self.results]
+        return found if order is None else [one[order - 1] for one in found]
 
     def value(self, name: str, restitution: float, order: int | None = None) -> Estimate:
-        """A steady value; parts are equally long, so that all weigh the same."""
-        return mean(self.parts(name, restitution, order))
+        """A steady value; values of one gas are correlated."""
+        key = name, restitution, order
+        if key not in self._means:
+            self._means[key] = mean(self.parts(*key))
+        return self._means[key]
 
     def misfit(self, name: str, restitution: float, order: int | None = None) -> float:
         """χ² of the parts about their mean over its degrees of freedom: 1 if errors are honest."""
-        value, error = self.parts(name, restitution, order)
-        if len(value) < 2:
-            return float("nan")
-        return float(np.sum(((value - np.mean(value)) / error) ** 2) / (len(value) - 1))
-
-    def series(
-        self, restitution: float, name: str, order: int | None = None
-    ) -> tuple[np.ndarray, Estimate]:
-        """Time, and a value with its error at every time; parts on the clock of the first."""
-        time, value = self._on_one_clock(name, restitution, order)
-        _, error = self._on_one_clock(f"{name}_error", restitution, order)
-        return time, mean(Estimate(value, error))
+        found = self.parts(name, restitution, order)
+        return Even(np.ones(len(found)), found, ()).misfit
 
     def each_series(
         self, restitution: float, name: str, order: int | None = None
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Time, and the value at every time in every part: (parts, times)."""
-        return self._on_one_clock(name, restitution, order)
-
-    def _on_one_clock(self, name: str, restitution: float, order: int | None):
-        found = [at(result.series, restitution, order) for result in self.results]
-        last = min(float(series["time"].values[-1]) for series in found)
+    ) -> tuple[np.ndarray, list[Estimate]]:
+        """Time, and the value at every time in every part, on the clock of the first."""
+        found = [at(result.series, restitution=restitution) for result in self.results]
+        if order is not None:
+            found = [series.sel(sonine_order=order) for series in found]
         time = found[0]["time"].values
-        time = time[time <= last]
-        return time, np.array([np.interp(time, s["time"].values, s[name].values) for s in found])
+        time = time[time <= min(series["time"].values[-1] for series in found)]
+        columns = [
+            [np.interp(time, series["time"].values, part) for part in estimate(series, name)]
+            for series in found
+        ]
+        return time, [Estimate(*column) for column in columns]
 
     def marginal(self, restitution: float) -> tuple[np.ndarray, np.ndarray]:
         """Centres of the bins of c_x, and the density in them: (parts, bins)."""
-        found = [at(result.distribution, restitution) for result in self.results]
+        found = [at(result.distribution, restitution=restitution) for result in self.results]
         density = np.array([part["marginal_x"].values for part in found])
         return found[0]["velocity"].values, density
 
@@ -69,37 +63,21 @@ class Pool:
         attrs = [result.attrs for result in self.results]
         return sum(int(a["n_particles"]) * int(a["n_realizations"]) for a in attrs)
 
-    def duration(self, restitution: float) -> tuple[float, float]:
-        """Time simulated and time averaged over, the mean of the parts (τ0)."""
-        total = np.mean([at(r.series, restitution)["time"].values[-1] for r in self.results])
-        start = np.mean([at(root, restitution)["steady_from_time"] for root in self._roots])
-        return float(total), float(total - start)
-
-    @property
-    def seconds(self) -> float:
-        """Wall time of all parts."""
-        return sum(float(result.attrs["seconds"]) for result in self.results)
+    def measured_time(self, restitution: float) -> float:
+        """Time averaged over, the mean of the parts (τ0)."""
+        ends = [at(r.series, restitution=restitution)["time"].values[-1] for r in self.results]
+        starts = [at(r.steady, restitution=restitution)["steady_from_time"] for r in self.results]
+        return float(np.mean(ends) - np.mean(starts))
 
 
-def mean(parts: Estimate) -> Estimate:
-    """Mean of equally long parts along the first axis."""
-    value, error = parts
-    found = np.mean(value, axis=0), np.sqrt(np.sum(np.square(error), axis=0)) / len(value)
-    return Estimate(*(float(x) if np.ndim(x) == 0 else x for x in found))
-
-
-def at(data: xr.Dataset, restitution: float, order: int | None = None) -> xr.Dataset:
-    """One restitution of a sweep, its only field or kick, and one Sonine order k."""
-    found = data.sel(restitution=restitution, method="nearest", tolerance=1e-9)
-    found = found.squeeze([d for d in ("field", "kick") if d in found.dims])
-    return found if order is None else found.sel(sonine_order=order)
-
-
-class Measurements:
+class Heat(Measurements):
     """All pools of a run of this experiment, by the name of their study."""
 
-    def __init__(self, size: Size, pools: dict[str, Pool]):
-        self.size, self.pools = size, pools
+    def __init__(self, size, folder: Path, fresh: bool = False):
+        found = studies(size)
+        super().__init__(size, [case for cases in found.values() for case in cases], folder, fresh)
+        self.pools = {n: Pool(c, [self.results[one.name] for one in c]) for n, c in found.items()}
+        self.fits: dict[tuple, Even] = {}
 
     def __getitem__(self, name: str) -> Pool:
         return self.pools[name]
@@ -112,29 +90,19 @@ class Measurements:
     @property
     def fields(self) -> tuple[float, ...]:
         """Those of the steady states, from the weakest on."""
-        return tuple(sorted(self.size.fields))
+        return tuple(sorted(strength for strength, _ in self.size.fields))
 
     def steady(self, strength: float) -> Pool:
         """The steady states at a field."""
-        return self[steady_name(strength)]
+        return self[f"force_{strength:g}"]
 
     def transient(self, restitution: float, strength: float) -> Pool:
         """An approach to the steady state."""
-        return self[transient_name(restitution, strength)]
+        return self[f"transient_{restitution:g}_{strength:g}"]
 
-    def against_field(self, name: str, restitution: float, order: int | None = None) -> Estimate:
-        """A steady value at every field, arrays."""
-        return stack(self.steady(f).value(name, restitution, order) for f in self.fields)
-
-
-def stack(estimates: Iterable[Estimate]) -> Estimate:
-    """Numbers with errors as one array with errors."""
-    return Estimate(*(np.array(column) for column in zip(*estimates, strict=True)))
+    def over_restitutions(self, value) -> Estimate:
+        """A function of the restitution as an array."""
+        return stack(value(alpha) for alpha in self.restitutions)
 
 
-def measure(size: Size, folder: Path, fresh: bool) -> Measurements:
-    """Every simulation of a size, from FOLDER where it is there."""
-    pools = {}
-    for name, study in studies(size).items():
-        pools[name] = Pool(study, [obtain(case, folder, fresh) for case in study.cases()])
-    return Measurements(size, pools)
+PAPER = Paper("heat_flux_force", Heat)

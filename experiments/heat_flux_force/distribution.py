@@ -1,18 +1,27 @@
-"""The first-order marginal distribution: φ(c_x²), its truncated series, and β1(c_x²)/b'_1."""
+"""The first-order marginal distribution: φ(c_x²), its truncated series, and β1(c_x²)/b'_1.
+
+And how long a coefficient takes to its steady value.
+"""
 
 from typing import NamedTuple
 
 import numpy as np
 from scipy.interpolate import CubicSpline
+from scipy.optimize import least_squares
 from scipy.special import eval_genlaguerre
 
 from jdsmc import Estimate
-from jdsmc.measure import BIN_WIDTH
+from jdsmc.measure.moments import BIN_WIDTH
 
-from .data import Pool
+from ..numbers import Even, Span, over_parts
+from .data import Heat
+from .limits import Quantity, at_field
 
 HEAT_FLUX_LIMIT = 6.0
 """c_x² up to which the paper counts the share of the heat flux."""
+
+SHARE_FIELD = 0.05
+"""The strongest field of the extrapolation of shares: at 0.1 terms beyond ε*² are seen."""
 
 
 class Odd(NamedTuple):
@@ -30,9 +39,9 @@ class Odd(NamedTuple):
         return 0.5 * (self.edges[1:] + self.edges[:-1])
 
 
-def odd_part(pool: Pool, restitution: float, strength: float) -> Odd:
+def odd_part(data: Heat, restitution: float, strength: float) -> Odd:
     """Half the difference of the density at c_x and -c_x, eq. (3.15), over ε*."""
-    centres, density = pool.marginal(restitution)
+    centres, density = data.steady(strength).marginal(restitution)
     half = len(centres) // 2
     odd = 0.5 * (density[:, half:] - density[:, :half][:, ::-1]) / strength
     return Odd(np.arange(half + 1) * BIN_WIDTH, odd)
@@ -58,32 +67,54 @@ def share(odd: Odd) -> Estimate:
     c = odd.edges
     weight = np.diff(c**3 * np.exp(-(c**2))) / -np.diff(np.exp(-(c**2)))
     running = np.cumsum(odd.density * weight, axis=1)
-    mean = np.mean(running, axis=0)
-    return Estimate(mean / mean[-1], _ratio_error(running))
+    return over_parts(running, lambda mean: mean / mean[-1])
 
 
 def share_below(odd: Odd, squared: float = HEAT_FLUX_LIMIT) -> Estimate:
     """The share of the heat flux from particles with c_x² below a limit (between edges: cubic)."""
-    value, error = share(odd)
-    edges = odd.edges[1:]
-    between = CubicSpline(edges, value)(np.sqrt(squared))
-    return Estimate(float(between), float(np.interp(np.sqrt(squared), edges, error)))
+    edges, at = odd.edges[1:], np.sqrt(squared)
+    found = share(odd)
+    value = CubicSpline(edges, found.value)(at)
+    return Estimate(float(value), float(np.interp(at, edges, found.error)))
 
 
-def over_parts(values: np.ndarray) -> Estimate:
-    """Mean and standard error over the parts, the first axis."""
-    return Estimate(np.mean(values, axis=0), _jackknife(values, lambda mean: mean))
+def share_limit(data: Heat, restitution: float) -> Even:
+    """The share of c_x² <= 6 in the heat flux against the field, extrapolated with ε*²."""
+    strengths = [f for f in data.fields if f <= SHARE_FIELD]
+    found = [share_below(odd_part(data, restitution, f)) for f in strengths]
+    return Even(strengths, found, (1,))
 
 
-def _ratio_error(running: np.ndarray) -> np.ndarray:
-    """Standard error of the mean over parts, divided by its own last value."""
-    return _jackknife(running, lambda mean: mean / mean[-1])
+START = 2.0
+"""Time from which the approach is taken as one exponential (τ0): b'_3 starts with no slope."""
+
+BOUNDS = (0.1, 0.05), (20.0, 5.0)
+"""Of the amplitude and the rate (1/τ0): wide; noise alone must not end the fit."""
 
 
-def _jackknife(values: np.ndarray, function) -> np.ndarray:
-    """Standard error of a function of the mean over parts, from leaving out each."""
-    count = len(values)
-    if count < 2:
-        return np.full(np.shape(function(values[0])), np.nan)
-    left_out = [function((np.sum(values, axis=0) - one) / (count - 1)) for one in values]
-    return np.sqrt((count - 1) * np.var(left_out, axis=0))
+class Approach(NamedTuple):
+    """v(t) = v (1 - A exp(-t/τ)): the time τ (τ0), and when v(t) is within 2% of v, [5% to 1%]."""
+
+    time: Estimate
+    within: Span
+
+
+def approach(data: Heat, quantity: Quantity, restitution: float, strength: float) -> Approach:
+    """A least-squares fit to the mean of all parts; errors from leaving out each (jackknife)."""
+    pool = data.transient(restitution, strength)
+    final = at_field(data, quantity, restitution, strength).value
+    time, parts = pool.each_series(restitution, quantity.name, quantity.order)
+    late = time >= START
+    time, values = time[late], np.array([part.value[late] for part in parts]) / final
+
+    def fitted(mean) -> np.ndarray:
+        def apart(parameters):
+            amplitude, rate = parameters
+            return mean - 1.0 + amplitude * np.exp(-rate * time)
+
+        amplitude, rate = least_squares(apart, (1.0, 0.4), bounds=BOUNDS).x
+        reach = np.log(amplitude / np.array([0.02, 0.05, 0.01])) / rate
+        return np.array([1.0 / rate, *reach])
+
+    found = over_parts(values, fitted)
+    return Approach(found[0], Span(*map(float, found.value[1:]), label="within 2% [5% to 1%]"))

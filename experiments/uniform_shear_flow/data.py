@@ -1,140 +1,135 @@
-"""What was measured, looked up by gas, restitution and shear rate."""
+"""What was measured, looked up by gas, restitution and shear rate; and in the slab."""
 
-import itertools
-import json
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import NamedTuple
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
-from jdsmc.gas import RATE_FACTORS
-from jdsmc.options import STEPS_PER_RECORD
 
-from jdsmc import Estimate, Result
+from jdsmc import Estimate
+from jdsmc.gases.hard_spheres import RATE_FACTORS
 
-from .systems import Case
+from ..case import Measurements, at, estimate, steady
+from ..numbers import mean, stack
+from ..paper import Paper
+from . import cases
+from .cases import FAST, LAYERS, LENGTH, SLAB_RESTITUTION, SLOW, variation
 
+CENTRE, TOP = slice(LAYERS // 2 - 2, LAYERS // 2 + 2), slice(LAYERS - 3, LAYERS)
+"""The four central and the three top layers of Fig. 3."""
 
-class Term(NamedTuple):
-    """One steady observable of one gas at one point; `index` picks a speed class."""
-
-    gas: str
-    restitution: float
-    shear_rate: float
-    name: str
-    index: int | None = None
-
-
-@dataclass(frozen=True)
-class SteadyQuantity:
-    """A function of steady observables, which may come from several gases."""
-
-    terms: tuple[Term, ...]
-    function: Callable[..., float]
-
-    def of(self, lookup: Callable[[Term], Estimate]) -> Estimate:
-        """Its value and standard error, the terms taken as independent."""
-        return propagate(self.function, [lookup(term) for term in self.terms])
+HEIGHT = (np.arange(LAYERS) + 0.5) / LAYERS - 0.5
+"""Centres of the layers, y/L as in the paper: from -1/2 to 1/2."""
 
 
-def propagate(function: Callable[..., float], estimates: list[Estimate]) -> Estimate:
-    """Value and standard error of a function of independent estimates (linear propagation)."""
-    values = [e.value for e in estimates]
-    centre = function(*values)
-    shifts = [
-        function(*values[:k], e.value + e.error, *values[k + 1 :]) - centre
-        for k, e in enumerate(estimates)
-    ]
-    return Estimate(float(centre), float(np.sqrt(np.sum(np.square(shifts)))))
+def beta(gas: str, restitution: float = SLAB_RESTITUTION) -> float:
+    """Collision rate over that of IHS."""
+    return 1.0 if gas == "ihs" else RATE_FACTORS["linear"](restitution)
 
 
-class Measurements:
-    """All results of a run of this experiment, by case name; `symmetry`: see `symmetry.check`."""
+class Curve:
+    """Values and errors against time, of each layer or of a group of them."""
 
-    def __init__(self, cases: dict[str, Case], results: dict[str, Result], symmetry: dict):
-        self.cases, self.results, self.symmetry = cases, results, symmetry
+    def __init__(self, time: np.ndarray, found: Estimate):
+        self.time, self.found = time, found
+        self.value, self.error = found
 
-    def steady_case(self, gas: str) -> Case:
-        """The case that holds the steady states of a gas."""
-        return self.cases[f"steady_{gas}"]
+    def at(self, time) -> Estimate:
+        """Interpolated linearly, layer by layer."""
 
-    def restitutions(self, gas: str = "ihs") -> tuple[float, ...]:
+        def there(columns):
+            flat = columns.reshape(len(columns), -1).T
+            found = np.array([np.interp(time, self.time, column) for column in flat])
+            return found[0] if columns.ndim == 1 else found
+
+        return Estimate(there(self.value), there(self.error))
+
+    def over(self, layers: slice) -> "Curve":
+        """Average over some layers, whose errors are taken as independent."""
+        error = self.error[:, layers]
+        mean_error = np.sqrt(np.sum(error**2, axis=1)) / error.shape[1]
+        return Curve(self.time, Estimate(np.mean(self.value[:, layers], axis=1), mean_error))
+
+
+class Shear(Measurements):
+    """All results of a run of this experiment."""
+
+    def __init__(self, size, folder: Path, fresh: bool = False):
+        super().__init__(size, cases.cases(size), folder, fresh)
+
+    def rates(self, gas: str) -> tuple[float, ...]:
+        """Shear rates of the steady states of a gas."""
+        return (FAST, SLOW) if gas in ("ihs", "ehs") else (FAST,)
+
+    def restitutions(self, gas: str = "ihs") -> np.ndarray:
         """Restitutions of the steady states of a gas."""
-        return self.steady_case(gas).restitution
+        return self.results[f"steady_{gas}"].steady["restitution"].values
 
-    def steady(self, gas: str, restitution: float, shear_rate: float) -> xr.Dataset:
-        """Steady values at one point."""
-        tree = self.results[f"steady_{gas}"].to_xarray()
-        return at_point(tree.to_dataset(), restitution, shear_rate)
+    def steady(self, gas: str, restitution: float, shear_rate: float, name: str) -> Estimate:
+        """A steady value at one point."""
+        point = {"restitution": restitution, "shear_rate": shear_rate}
+        return steady(self.results[f"steady_{gas}"], name, **point)
 
-    def lookup(self, term: Term) -> Estimate:
-        """Value and error of one steady observable."""
-        return estimate_in(self.steady(term.gas, term.restitution, term.shear_rate), term)
+    def against(self, gas: str, name: str, shear_rate: float | None = None) -> Estimate:
+        """A steady value against restitution; without a shear rate the mean over both."""
+        rates = self.rates(gas) if shear_rate is None else (shear_rate,)
+        result = self.results[f"steady_{gas}"]
+        found = mean([steady(result, name, shear_rate=rate) for rate in rates])
+        return found if np.ndim(found.value) else stack([found])
 
-    def steady_values(self, gas: str, shear_rate: float, name: str) -> Estimate:
-        """A steady observable against restitution: arrays in the order of `restitutions`."""
-        points = [self.lookup(Term(gas, a, shear_rate, name)) for a in self.restitutions(gas)]
-        return Estimate(*(np.array(column) for column in zip(*points, strict=True)))
+    def both(self, name: str, shear_rate: float | None = None) -> tuple[Estimate, Estimate]:
+        """The same of IHS and of EHS."""
+        return self.against("ihs", name, shear_rate), self.against("ehs", name, shear_rate)
 
-    def distribution(self, gas: str, restitution: float, shear_rate: float) -> xr.Dataset:
-        """Steady velocity distributions at one point."""
-        found = self.results[f"steady_{gas}"].distribution
-        return at_point(found, restitution, shear_rate)
-
-    def mean_distribution(self, gas: str, restitution: float) -> xr.Dataset:
-        """Distributions averaged over the shear rates, as in the paper's Fig. 18."""
-        rates = self.steady_case(gas).shear_rate
-        parts = [self.distribution(gas, restitution, rate) for rate in rates]
-        mean = sum(parts[1:], parts[0].copy()) / len(parts)
+    def distribution(self, gas: str, restitution: float, rate: float | None = None) -> xr.Dataset:
+        """Steady velocity distributions; without a shear rate the mean over both (Fig. 18)."""
+        rates, found = self.rates(gas) if rate is None else (rate,), self.results[f"steady_{gas}"]
+        parts = [at(found.distribution, restitution=restitution, shear_rate=r) for r in rates]
+        means = sum(parts[1:], parts[0].copy()) / len(parts)
         for name in ("marginal_x", "marginal_y", "speed"):
             squares = sum(part[f"{name}_error"] ** 2 for part in parts)
-            mean[f"{name}_error"] = np.sqrt(squares) / len(parts)
-        return mean
+            means[f"{name}_error"] = np.sqrt(squares) / len(parts)
+        return means
 
     def series(self, gas: str, restitution: float, shear_rate: float) -> xr.Dataset:
         """Time series at one point, with `clock`: s for IHS and s'/β for EHS."""
-        found = at_point(self.results[f"transient_{gas}"].series, restitution, shear_rate)
-        beta = 1.0 if gas == "ihs" else RATE_FACTORS["linear"](restitution)
-        return found.assign(clock=found["collisions"] / beta)
+        point = {"restitution": restitution, "shear_rate": shear_rate}
+        found = at(self.results[f"transient_{gas}"].series, **point)
+        return found.assign(clock=found["collisions"] / beta(gas, restitution))
+
+    def repeated(self, label: str) -> "Repeated":
+        """Steady values with other numerics."""
+        return Repeated(self, label)
+
+    def slab(self, stage: str, gas: str, start: str = "equilibrium") -> xr.Dataset:
+        """Time series of the slab with `clock`; stage "early" or "late"."""
+        found = self.results[f"slab_{stage}_{gas}_{start}"].series
+        return found.assign(clock=found["collisions"] / beta(gas))
+
+    def slab_steady(self, gas: str, name: str) -> Estimate:
+        """A steady average of the slab started from equilibrium."""
+        return self.results[f"slab_late_{gas}_equilibrium"][name]
 
 
-def at_point(data: xr.Dataset, restitution: float, shear_rate: float) -> xr.Dataset:
-    """One point of a sweep; raises KeyError if it was not simulated."""
-    point = {"restitution": restitution, "shear_rate": shear_rate}
-    return data.sel(point, method="nearest", tolerance=1e-9)
+class Repeated:
+    """The steady values of `Shear`, every point run again with other numerics (`variation`)."""
+
+    def __init__(self, data: Shear, label: str):
+        self.data, self.label = data, label
+
+    def steady(self, gas: str, restitution: float, shear_rate: float, name: str) -> Estimate:
+        """A steady value at one point."""
+        case = self.data.cases[f"steady_{gas}"]
+        again = variation(case, gas, restitution, shear_rate, self.label)
+        return steady(self.data.obtain(again), name)
 
 
-def estimate_in(data: xr.Dataset, term: Term) -> Estimate:
-    """Value and error of a term in the steady values of its point."""
-    pair = (data[term.name].values, data[f"{term.name}_error"].values)
-    if term.index is not None:
-        pair = tuple(array[term.index] for array in pair)
-    return Estimate(*(float(array) for array in pair))
+def profile(series: xr.Dataset, name: str) -> Curve:
+    """A profile against time in the units of Fig. 2: u_x/aL, n/n̄ or T/T̄."""
+    scale = {"velocity_x": FAST * LENGTH, "density": 1.0}.get(name)
+    if scale is None:
+        scale = series["mean_temperature"].values[:, None]
+    value, error = estimate(series, name)
+    return Curve(series["time"].values, Estimate(value / scale, error / scale))
 
 
-def actual_steps(result: Result) -> np.ndarray:
-    """Time step really used in the steady state, in units of τ(T): array like the sweep.
-
-    `run` shortens the step asked for so that a particle is a candidate at most 0.5 times a step;
-    the times of the records tell what it was.
-    """
-    options = json.loads(result.attrs["request"])["options"]
-    series, root = result.series, result.to_xarray().to_dataset()
-    shape = root["steady_from_time"].shape
-    steps = np.empty(shape)
-    for point in itertools.product(*map(range, shape)):
-        time, temperature = series["time"].values[point], series["temperature"].values[point]
-        step = (
-            np.diff(time)
-            / options.get("steps_per_record", STEPS_PER_RECORD)
-            * np.sqrt(temperature[:-1])
-        )
-        steps[point] = np.mean(step[time[:-1] >= root["steady_from_time"].values[point]])
-    return steps
-
-
-def measured_collisions(result: Result) -> np.ndarray:
-    """Collisions per particle over which the steady values were averaged: array like the sweep."""
-    start = result.to_xarray()["steady_from_collisions"].values
-    return result.series["collisions"].values[..., -1] - start
+PAPER = Paper("uniform_shear_flow", Shear)

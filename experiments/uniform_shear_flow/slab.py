@@ -1,159 +1,109 @@
-"""The inhomogeneous problem, sections IV A and V A: what to run, and what was measured."""
-
-import json
-from dataclasses import asdict, dataclass, field
-from pathlib import Path
-from typing import Literal
+"""Our value of every number that section V A quotes for the inhomogeneous problem."""
 
 import numpy as np
-import xarray as xr
-from jdsmc.gas import RATE_FACTORS
 
-from jdsmc import Estimate, Result, run
-from jdsmc.scenarios import ShearedSlab
+from jdsmc import Estimate
 
-from ..store import obtain
-from .systems import FAST, GASES
+from ..case import estimate
+from ..numbers import Span
+from .cases import BOTH, STARTS
+from .data import CENTRE, HEIGHT, PAPER, TOP, Curve, Shear, profile
+from .measured import running_mean, settled
 
-RESTITUTION, LENGTH, LAYERS = 0.9, 2.5, 50
-"""α, L/λ0 and M of the paper's slab; its shear rate is a τ0 = 4."""
+TIMES = (0.13, 0.5, 1.0, 1.5, 2.0)
+"""Times of the profiles, t/τ0."""
 
-BETA = {"ihs": 1.0, "ehs": RATE_FACTORS["linear"](RESTITUTION)}
-"""Collision rate over that of IHS."""
-
-Start = Literal["equilibrium", "nonequilibrium"]
-STARTS: dict[Start, str] = {"equilibrium": "(3.5)", "nonequilibrium": "(3.6)"}
-"""The two initial states of section V A, and their equations."""
+LIMITS = (0.05, 0.1, 0.03)
+"""Distances from uniform shear that count as none: the middle, the loosest, the strictest."""
 
 
-@dataclass(frozen=True)
-class SlabCase:
-    """One simulation: a gas, an initial state, and the options of `run`."""
-
-    name: str
-    gas: str
-    initial_state: Start
-    options: dict = field(default_factory=dict)
-    module: str = "scenarios/sheared_slab.py"
-
-    def simulate(self) -> Result:
-        """Run it."""
-        gas = GASES[self.gas](RESTITUTION)
-        scene = ShearedSlab(gas, FAST, LENGTH, self.initial_state, LAYERS)
-        return run(scene, progress=False, **self.options)
-
-    def request(self) -> str:
-        """Everything that decides the result, as text to compare with a file's."""
-        return json.dumps([asdict(self), RESTITUTION, FAST, LENGTH, LAYERS], sort_keys=True)
+def collisions(series) -> Curve:
+    """s against time."""
+    return Curve(series["time"].values, estimate(series, "collisions"))
 
 
-@dataclass(frozen=True)
-class SlabSize:
-    """How much to compute. The paper: N = 1e4 particles, three realizations.
+def time_of(clock: float):
+    """The time at which s has a value, and its error from that of s."""
 
-    `early`: particles and realizations for the profiles until t = 2.3; `late`: for the approach to
-    the steady state; `collisions`: how long that is followed; `halved`: also with half the step?
+    def of(data: Shear) -> Estimate:
+        curve = collisions(data.slab("early" if clock < 5 else "late", "ihs"))
+        found = float(np.interp(clock, curve.value, curve.time))
+        error = curve.error / np.gradient(curve.value, curve.time)
+        return Estimate(found, float(np.interp(found, curve.time, error)))
+
+    return of
+
+
+def peak(name: str):
+    """Where centre minus top of a profile from (3.5) is largest, in s.
+
+    The range is where it is within two errors of that.
     """
 
-    early: tuple[int, int]
-    late: tuple[int, int]
-    collisions: float
-    halved: bool
+    def of(data: Shear) -> Span:
+        series = data.slab("early", "ihs")
+        centre, top = (profile(series, name).over(layers) for layers in (CENTRE, TOP))
+        clock, size = series["clock"].values, np.abs(centre.value - top.value)
+        best = int(np.argmax(size))
+        near = clock[size > size[best] - 2.0 * np.hypot(centre.error, top.error)[best]]
+        places = (clock[best], near[0], near[-1])
+        return Span(*map(float, places), label="largest [within two errors]")
+
+    return of
 
 
-SIZES = {
-    "small": SlabSize((10_000, 16), (5_000, 8), 140.0, halved=False),
-    "full": SlabSize((40_000, 32), (20_000, 16), 400.0, halved=True),
+def uniform_from(data: Shear) -> Span:
+    """s from which n, T/T̄ and u_x/(aL/2) at the top are within 5% (10%, 3%) of uniform shear.
+
+    Means over half a collision per particle on either side; IHS from (3.5).
+    """
+    series = data.slab("early", "ihs")
+    clock = series["clock"].values
+    wanted = {"velocity_x": float(np.mean(HEIGHT[TOP])), "density": 1.0, "temperature": 1.0}
+    parts = [profile(series, name).over(TOP).value / one for name, one in wanted.items()]
+    distance = np.max([np.abs(running_mean(clock, part) - 1.0) for part in parts], axis=0)
+    last = [np.flatnonzero(distance > limit)[-1] for limit in LIMITS]
+    places = [float(clock[min(k + 1, len(clock) - 1)]) for k in last]
+    return Span(*places, label="within 5% [10% to 3%]")
+
+
+def ratio_curve(data: Shear) -> tuple[np.ndarray, Estimate]:
+    """Times, and s'/s with its error, after the first 0.1 τ0."""
+    ihs, ehs = (collisions(data.slab("late", gas)) for gas in BOTH)
+    time = ihs.time[(ihs.time > 0.1) & (ihs.time < min(14.0, ehs.time[-1]))]
+    return time, ehs.at(time) / ihs.at(time)
+
+
+def collision_ratio(data: Shear) -> Estimate:
+    """s'/s at equal times, averaged over t > 4 τ0 of the run to the steady state."""
+    time, ratio = ratio_curve(data)
+    value, error = ratio[time > 4.0]
+    # accumulated numbers: their errors are almost the same at all times
+    return Estimate(float(np.mean(value)), float(np.mean(error)))
+
+
+def temperature_settling(data: Shear) -> Span:
+    """s until the mean temperature is stationary."""
+    late, final = data.slab("late", "ihs"), data.slab_steady("ihs", "mean_temperature")
+    return settled(late, late["mean_temperature"].values / float(final), "clock")
+
+
+PAPER.measures |= {
+    f"s_{start}_{time:g}": lambda data, start=start, time=time: collisions(
+        data.slab("early", "ihs", start)
+    ).at(time)
+    for start in STARTS
+    for time in TIMES
 }
-EARLY_DURATION = 2.6
-
-
-def cases(size: SlabSize) -> list[SlabCase]:
-    """Profiles of both gases from both states, and their approach to the steady state."""
-    early = dict(zip(("n_particles", "n_realizations"), size.early, strict=True))
-    early |= {"duration": EARLY_DURATION, "steps_per_record": 2}
-    late = dict(zip(("n_particles", "n_realizations"), size.late, strict=True))
-    late |= {"collisions": size.collisions, "steps_per_record": 4}
-    found = []
-    for number, start in enumerate(STARTS):
-        for other, gas in enumerate(BETA):
-            options = {**early, "seed": 200 + 2 * number + other}
-            found.append(SlabCase(f"slab_early_{gas}_{start}", gas, start, options))
-    for seed, gas in ((210, "ihs"), (211, "ehs")):
-        found.append(
-            SlabCase(f"slab_late_{gas}_equilibrium", gas, "equilibrium", {**late, "seed": seed})
-        )
-    followed = {**late, "collisions": 60.0, "seed": 212}
-    found.append(SlabCase("slab_late_ihs_nonequilibrium", "ihs", "nonequilibrium", followed))
-    if size.halved:
-        options = {**late, "time_step": 0.025, "seed": 213}
-        found.append(SlabCase("slab_half_step_ihs", "ihs", "equilibrium", options))
-    return found
-
-
-class Slabs:
-    """All results of the inhomogeneous problem, by case name."""
-
-    def __init__(self, results: dict[str, Result]):
-        self.results = results
-
-    def series(self, stage: str, gas: str, start: str = "equilibrium") -> xr.Dataset:
-        """Time series with `clock`, s for IHS and s'/β for EHS; stage "early" or "late"."""
-        found = self.results[f"slab_{stage}_{gas}_{start}"].series
-        return found.assign(clock=found["collisions"] / BETA[gas])
-
-    def profile(self, gas: str, start: str, time: float, name: str) -> Estimate:
-        """A profile at a time, interpolated between records: u_x/aL, n/n̄ or T/T̄."""
-        return reduced(self.series("early", gas, start), name).at(time)
-
-    def steady(self, gas: str, name: str) -> Estimate:
-        """A steady average of the slab started from equilibrium."""
-        return self.results[f"slab_late_{gas}_equilibrium"][name]
-
-
-class Curve:
-    """Values and errors against time, of each layer or of a group of them."""
-
-    def __init__(self, time: np.ndarray, value: np.ndarray, error: np.ndarray):
-        self.time, self.value, self.error = time, value, error
-
-    def at(self, time: float) -> Estimate:
-        """Interpolated linearly."""
-        columns = zip(*np.broadcast_arrays(self.value.T, self.error.T), strict=True)
-        if self.value.ndim == 1:
-            return Estimate(
-                *(float(np.interp(time, self.time, x)) for x in (self.value, self.error))
-            )
-        pairs = [[np.interp(time, self.time, x) for x in column] for column in columns]
-        return Estimate(*np.array(pairs).T)
-
-    def over(self, layers: slice) -> "Curve":
-        """Average over some layers, whose errors are taken as independent."""
-        error = self.error[:, layers]
-        mean_error = np.sqrt(np.sum(error**2, axis=1)) / error.shape[1]
-        return Curve(self.time, np.mean(self.value[:, layers], axis=1), mean_error)
-
-
-def reduced(series: xr.Dataset, name: str) -> Curve:
-    """A profile in the units of Fig. 2: u_x/aL, n/n̄ or T/T̄."""
-    value, error = series[name].values, series[f"{name}_error"].values
-    if name == "velocity_x":
-        scale = FAST * LENGTH
-    elif name == "temperature":
-        scale = series["mean_temperature"].values[:, None]
-    else:
-        scale = 1.0
-    return Curve(series["time"].values, value / scale, error / scale)
-
-
-CENTRE = slice(LAYERS // 2 - 2, LAYERS // 2 + 2)
-TOP = slice(LAYERS - 3, LAYERS)
-"""The four central and the three top layers of Fig. 3."""
-
-HEIGHT = (np.arange(LAYERS) + 0.5) / LAYERS - 0.5
-"""Centres of the layers, y/L as in the paper: from -1/2 to 1/2."""
-
-
-def measure(size: SlabSize, folder: Path, fresh: bool) -> Slabs:
-    """Run or reuse every case."""
-    return Slabs({case.name: obtain(case, folder, fresh) for case in cases(size)})
+PAPER.measures |= {
+    f"slab_{name}_{gas}": lambda data, name=name, gas=gas: data.slab_steady(gas, name)
+    for name in ("mean_temperature", "shear_stress", "normal_stress_xy")
+    for gas in BOTH
+}
+PAPER.measures |= {f"time_{clock:g}": time_of(clock) for clock in (4.0, 40.0, 50.0)} | {
+    "density_top": peak("density"),
+    "temperature_top": peak("temperature"),
+    "uniform": uniform_from,
+    "settling_temperature": temperature_settling,
+    "ratio": collision_ratio,
+}

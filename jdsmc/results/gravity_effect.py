@@ -5,12 +5,15 @@ paths to the cold wall (half of all); ε0 is the reduced gradient there. For oth
 with the same ε0. Then Δκ*(ε0, g*) = κ*(ε0, g*) - κ*(ε0, 0), eq. (33).
 """
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 
+from ..estimate import Estimate
 from ..measure import conduction
 from ..stats import jackknife
-from .result import Estimate, Result
+from .result import Result
 
 NAMES = {
     "z0": "point of equal reduced gradient (λ0)",
@@ -36,15 +39,26 @@ def at_equal_gradient(
     no point has that ε0; its errors are NaN if that happens with one realization left out.
     Raises ValueError for another sweep, or if no state has such a point.
     """
-    value, error = jackknife(means(result), rule(result, window, gradient), axis=1)
-    if not np.any(np.isfinite(value["z0"])):
-        raise ValueError("no layer has the reduced gradient asked for; give another gradient.")
-    gravity = result.to_xarray()["gravity"].values
-    out = xr.Dataset(coords={"gravity": gravity}, attrs={"window": window})
+    found = points(result, window, gradient)
+    out = xr.Dataset(coords={"gravity": result.steady["gravity"].values}, attrs={"window": window})
     for name, long in NAMES.items():
-        out[name] = ("gravity", value[name], {"long_name": long})
-        out[f"{name}_error"] = ("gravity", error[name], {"long_name": f"standard error of {long}"})
+        value, error = found[name]
+        out[name] = ("gravity", value, {"long_name": long})
+        out[f"{name}_error"] = ("gravity", error, {"long_name": f"standard error of {long}"})
     return out
+
+
+def points(
+    result: Result, window: float = conduction.WINDOW, gradient: float | None = None
+) -> dict[str, Estimate]:
+    """The quantities in `NAMES` as estimates over gravity; arguments as of `at_equal_gradient`.
+
+    Those of one result are correlated, with whatever window or gradient.
+    """
+    found = _estimated(result, rule(result, window, gradient))
+    if not np.any(np.isfinite(found["z0"].value)):
+        raise ValueError("no layer has the reduced gradient asked for; give another gradient.")
+    return found
 
 
 def linear_response(
@@ -60,12 +74,12 @@ def linear_response(
     common, so that their κ* are not independent.
     Returns: estimates "B", "C", "kappa_star" (at g = 0, from the fit) and "reduced_gradient".
     """
-    effect = at_equal_gradient(result, window, gradient)
-    used = np.abs(effect["reduced_gravity"].values) <= largest
-    used &= np.isfinite(effect["kappa_star_error"].values)
+    effect = points(result, window, gradient)
+    error = effect["kappa_star"].error
+    used = (np.abs(effect["reduced_gravity"].value) <= largest) & np.isfinite(error)
     if np.sum(used) < 3:
         raise ValueError(f"fewer than three states have a known κ* and |g*| <= {largest:g}.")
-    weight = 1.0 / effect["kappa_star_error"].values[used]
+    weight = 1.0 / np.asarray(error)[used]
     local = rule(result, window, gradient)
 
     def fitted(averages):
@@ -81,8 +95,14 @@ def linear_response(
             "reduced_gradient": start,
         }
 
-    value, error = jackknife(means(result), fitted, axis=1)
-    return {name: Estimate(float(value[name]), float(error[name])) for name in value}
+    return _estimated(result, fitted)
+
+
+def _estimated(result: Result, function) -> dict[str, Estimate]:
+    """A function of averages (gravity, ...) with its errors, realizations left out in turn."""
+    value, error, left_out = jackknife(means(result), function, axis=1)
+    run = (result.attrs["run"], "all gravities")
+    return {name: Estimate(value[name], error[name], {run: left_out[name]}) for name in value}
 
 
 def means(result: Result) -> dict[str, np.ndarray]:
@@ -102,9 +122,11 @@ def rule(result: Result, window: float = conduction.WINDOW, gradient: float | No
 
     It returns a dict of the quantities in `NAMES`, for every value of gravity.
     """
-    attrs, coords = result.attrs, result.to_xarray()["realizations"].to_dataset()
+    coords = result.to_xarray()["realizations"].to_dataset()
     gravity, z = coords["gravity"].values, coords["z"].values
-    length, exponent = float(attrs["parameter_length"]), attrs["viscosity_exponent"]
+    length = float(result.attrs["parameter_length"])
+    scene: Any = result.scene()
+    exponent = 1.0 - 0.5 * scene.gas.speed_exponent()
 
     def at_points(averages: dict) -> dict:
         profile = conduction.profiles(averages)
