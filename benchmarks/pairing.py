@@ -2,8 +2,8 @@
 
 `seats` is what the library does (`jdsmc.collisions.trios`): one scatter. The others order all
 particles by layer, at random within a layer, as sequential DSMC codes do; pairs then follow from
-the ranks. An order that is kept for several steps costs that much less, but partners are then up to a flight of
-several steps farther apart, which the scatter never needs.
+the ranks. An order that is kept for several steps costs that much less, but partners are then up to
+a flight of several steps farther apart, which the scatter never needs.
 """
 
 import jax

@@ -57,13 +57,6 @@ and Δκ* at the paper's point z0 from a sweep over gravity.""",
 Equations: Astillero and Santos (2005), (4.5) to (4.9): averages over the slab are P̄_ij/n̄T̄; in the
 temperature of a layer N - 1 stands for N. `y` is the centre of a layer in λ0, or a share of the
 length if that is swept.""",
-    "CoolingDisks": """\
-Equations: Costantini and Puglisi, *Hydrodynamic noise of a cooling gas* (2010): (8) to (13). C(s)
-is the autocorrelation of Σ w_⊥ exp(ik·r) over N T~/m, both modes of the smallest wave number
-together. Names with `tail` take the amplitude of the exponential tail in place of C(0), which is
-the noise if it were white. Errors are by jackknife over blocks of some 25 decay times.""",
-    "MolecularDynamics": """\
-As `CoolingDisks`, for disks of finite size.""",
     "NavierStokes": """\
 `jdsmc.transport.navier_stokes`; derivation: [impulse response](impulse_response.md). κ0 and η0:
 first Sonine approximation of elastic spheres. Its `result.series` has what is over `lag` against

@@ -34,17 +34,20 @@ class Claim(NamedTuple):
 class Finding(NamedTuple):
     """What was measured, in words and numbers, and whether it bears a sentence out.
 
-    `holds` is true or false, or None if the errors leave it open.
+    `holds` is true or false, or None if the errors leave it open; `distance`: by how many standard
+    errors the weakest of several numbers decides it.
     """
 
     measured: str
     holds: Any
+    distance: float | None = None
 
 
 class Verdict(NamedTuple):
     """A claim beside our measurement: Estimate, Span, number or text.
 
-    `distance`: of a number, beyond its rounding, in our standard errors.
+    `distance`: of a number, beyond its rounding, in our standard errors; of a sentence, if signs of
+    numbers decide it, that of the weakest.
     """
 
     claim: Claim
@@ -55,9 +58,9 @@ class Verdict(NamedTuple):
     @property
     def text(self) -> str:
         """In a word."""
+        far = "" if self.distance is None else f" by {self.distance:.1f} σ"
         if self.claim.expected is None:
-            return HOLDS[self.holds]
-        far = f" by {self.distance:.1f} σ" if self.distance else ""
+            return HOLDS[self.holds] + (far if self.holds else "")
         return "agrees" if self.holds else f"**differs{far}**"
 
 
@@ -77,7 +80,7 @@ def judge(claim: Claim, measured) -> Verdict:
     """A claim beside what was measured of it."""
     if isinstance(measured, Finding):
         holds = None if measured.holds is None else bool(measured.holds)
-        return Verdict(claim, measured.measured, holds, None)
+        return Verdict(claim, measured.measured, holds, measured.distance)
     wanted, half = float(claim.expected or 0.0), claim.half_width
     if isinstance(measured, Span):
         holds = measured.low <= wanted + half and measured.high >= wanted - half
@@ -116,6 +119,23 @@ def positive(found: Estimate) -> bool | None:
     """True if a number is above 0 by more than 2 errors, False if below by as much, or None."""
     value, error = (float(part) for part in found)
     return None if abs(value) <= AGREEMENT * error else value > 0
+
+
+def all_positive(head: str, numbers: dict[str, Estimate], shown: dict | None = None) -> Finding:
+    """A sentence that holds if all numbers are above 0, by more than 2 errors.
+
+    Arguments: what they are; the numbers by label; texts to show in their place.
+    """
+    texts = {label: value_and_error(one) for label, one in numbers.items()} | (shown or {})
+    text = f"{head}: " + "; ".join(f"{label} {one}".strip() for label, one in texts.items())
+    least = min(float(one.distance(0.0)) for one in numbers.values())
+    return Finding(text, every(positive(one) for one in numbers.values()), least)
+
+
+def value_and_error(found: Estimate) -> str:
+    """Both, to digits that their sizes ask for."""
+    value, error = (float(part) for part in found)
+    return f"{value:+.4g} ± {error:.2g}"
 
 
 def every(signs: Iterable[bool | None]) -> bool | None:

@@ -69,6 +69,12 @@ def whole(name, value, low) -> int:
     return int(value)
 
 
+def counted(value):
+    """An int for what is whole (20.0, NumPy's integers); the rest is left for `at_least`."""
+    numeric = isinstance(value, float | np.number) and np.isfinite(value)
+    return int(value) if numeric and value == int(value) else value
+
+
 def at_least(name, value, low) -> None:
     """Raise unless `value` is an integer (bool excluded) of at least `low`."""
     whole(name, value, low)

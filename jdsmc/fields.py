@@ -53,7 +53,8 @@ def choice(meaning: str, choices: tuple[str, ...], *, default: Any = REQUIRED) -
 
 def count(meaning: str, *, least: int = 1, default: Any = REQUIRED) -> Any:
     """A size: an integer that selects a compiled program."""
-    return eqx.field(default=default, static=True, metadata={"meaning": meaning, "least": least})
+    facts = {"meaning": meaning, "least": least}
+    return eqx.field(default=default, static=True, converter=check.counted, metadata=facts)
 
 
 def derived() -> Any:

@@ -12,7 +12,7 @@ import numpy as np
 from jdsmc import Estimate
 
 from ..case import estimate
-from ..claims import Finding, every, positive
+from ..claims import Finding, all_positive, every, positive
 from ..numbers import Span, over_parts
 from . import balance, profiles
 from .cases import BEYOND, COMBINATIONS, EXAMPLE, EXAMPLE_GRAVITY, FIGURE_6, Combination
@@ -113,15 +113,14 @@ def stress_without_gravity(data: Fourier) -> Finding:
 
 
 def stress_with_gravity(data: Fourier) -> Finding:
-    texts, signs = [], []
+    gains = {}
     for gravity in EXAMPLE_GRAVITY:
-        if gravity:
-            stress = data.realizations(EXAMPLE, gravity)["pressure_zz"].values
-            fifth = stress.shape[1] // 5
-            gain = over_parts(stress[:, -fifth:].mean(axis=1) - stress[:, :fifth].mean(axis=1))
-            texts.append(f"g = {gravity:g}: {gain.value:+.4f} ± {gain.error:.4f}")
-            signs.append(positive(-gain if gravity > 0 else gain))
-    return Finding("P_zz, last fifth minus first: " + "; ".join(texts), every(signs))
+        stress = data.realizations(EXAMPLE, gravity)["pressure_zz"].values
+        fifth = stress.shape[1] // 5
+        gain = over_parts(stress[:, -fifth:].mean(axis=1) - stress[:, :fifth].mean(axis=1))
+        gains[f"g = {gravity:g}"] = gain * -float(np.sign(gravity))
+    del gains["g = 0"]
+    return all_positive("P_zz, last fifth minus first, times minus the sign of g", gains)
 
 
 def pressure_against_stress(data: Fourier) -> Finding:
@@ -183,22 +182,21 @@ def jumps(data: Fourier) -> Finding:
 
 
 def smaller_jumps(data: Fourier) -> Finding:
-    texts, signs = [], []
+    found, shown = {}, {}
     for gravity in FIGURE_6:
         for side, cold in (("cold", True), ("hot", False)):
             states = [data.state(Combination(0.01, wall), gravity) for wall in ("maxwell", "bgk")]
             ends = [profiles.layer(state, "temperature", cold) for state in states]
             one, two = (end - 0.01 if cold else 1.0 - end for end in ends)
-            texts.append(f"g = {gravity:g}, {side} wall: {one.value:.3f} and {two.value:.3f}")
-            signs.append(positive(one - two))
-    return Finding("T_- = 0.01, types I and II, " + "; ".join(texts), every(signs))
+            label = f"g = {gravity:g}, {side} wall"
+            found[label], shown[label] = one - two, f"{one.value:.3f} and {two.value:.3f}"
+    return all_positive("T_- = 0.01, types I and II", found, shown)
 
 
 def _in_all(data: Fourier, name: str, head: str, expected) -> Finding:
     """A coefficient of the fits, and whether a function of it is positive in all sweeps."""
-    found = {c.label: data.responses[c][name] for c in COMBINATIONS}
-    text = "; ".join(f"{label}: {one}" for label, one in found.items())
-    return Finding(f"{head}, {text}", every(positive(expected(one)) for one in found.values()))
+    found = {f"{c.label}:": data.responses[c][name] for c in COMBINATIONS}
+    return all_positive(head, {label: expected(one) for label, one in found.items()}, found)
 
 
 def below_one(data: Fourier) -> Finding:
@@ -211,12 +209,9 @@ def _both_kinds(data: Fourier, cold: float) -> list[dict[str, Estimate]]:
 
 
 def closer_to_one(data: Fourier) -> Finding:
-    texts, signs = [], []
-    for cold in (0.05, 0.01):
-        one, two = (fit["kappa_star"] for fit in _both_kinds(data, cold))
-        texts.append(f"T_- = {cold:g}: {(two - one).value:+.4f} ± {(two - one).error:.4f}")
-        signs.append(positive(two - one))
-    return Finding("κ* of type II minus type I, " + "; ".join(texts), every(signs))
+    both = {f"T_- = {cold:g}": _both_kinds(data, cold) for cold in (0.05, 0.01)}
+    found = {label: two["kappa_star"] - one["kappa_star"] for label, (one, two) in both.items()}
+    return all_positive("κ* of type II minus type I", found)
 
 
 def _resolved(data: Fourier) -> list[tuple[float, dict[str, Estimate]]]:
@@ -252,15 +247,13 @@ def asymmetry(data: Fourier) -> Finding:
 
 
 def walls_matter(data: Fourier) -> Finding:
-    texts, signs = [], []
+    found, shown = {}, {}
     for cold in (0.05, 0.01):
         one, two = (fit["B"] * fit["reduced_gradient"] for fit in _both_kinds(data, cold))
-        more = two - one
-        texts.append(
-            f"T_- = {cold:g}: {one.value:.3f} and {two.value:.3f}, difference ± {more.error:.3f}"
-        )
-        signs.append(positive(more))
-    return Finding("∂Δκ*/∂g* at g* = 0, types I and II, " + "; ".join(texts), every(signs))
+        label, found[f"T_- = {cold:g}"] = f"T_- = {cold:g}", two - one
+        error = found[label].error
+        shown[label] = f"{one.value:.3f} and {two.value:.3f}, difference ± {error:.3f}"
+    return all_positive("∂Δκ*/∂g* at g* = 0, types I and II", found, shown)
 
 
 def weaker_than_molecules(data: Fourier) -> Finding:

@@ -7,7 +7,7 @@ from jdsmc import Estimate
 from jdsmc.theory import bgk_shear_flow
 
 from ..case import estimate
-from ..claims import Finding, every, percent, positive
+from ..claims import Finding, all_positive, percent, positive
 from ..numbers import total
 from .cases import BOTH, FAST
 from .data import Shear
@@ -84,9 +84,9 @@ def x_broader(data: Shear) -> Finding:
 def ehs_more_populated(data: Shear) -> Finding:
     parts = ("marginal_x", -1.0, 0.0), ("marginal_y", -0.3, 0.0), ("speed", 0.0, 0.5)
     pairs = {part[0]: shares(data, 0.5, *part) for part in parts}
-    excess = {name: ehs / ihs - 1.0 for name, (ihs, ehs) in pairs.items()}
-    text = ", ".join(f"{name} {percent(one, 2)}" for name, one in excess.items())
-    return Finding(f"EHS/IHS - 1: {text}", every(positive(one) for one in excess.values()))
+    return all_positive(
+        "EHS/IHS - 1", {name: ehs / ihs - 1.0 for name, (ihs, ehs) in pairs.items()}
+    )
 
 
 def speed_less_distorted(data: Shear) -> Finding:
@@ -115,13 +115,12 @@ def overpopulated_tails(data: Shear) -> Finding:
 
 
 def heavier_ihs_tails(data: Shear) -> Finding:
-    texts, good = [], []
+    excess = {}
     parts = ("marginal_x", LEFT, 1), ("speed", FAST_TAIL, 1), ("marginal_y", LEFT, -1)
     for name, side, sign in parts:
         ihs, ehs = shares(data, 0.5, name, *side)
-        texts.append(f"{name} {percent(ihs / ehs - 1.0)}")
-        good.append(positive(sign * (ihs / ehs - 1.0)))
-    return Finding("tail weight IHS/EHS - 1: " + ", ".join(texts), every(good))
+        excess[name if sign > 0 else f"minus that of {name}"] = sign * (ihs / ehs - 1.0)
+    return all_positive("tail weight IHS/EHS - 1", excess)
 
 
 def _over_bgk(data: Shear, alpha: float, name: str, side: tuple[float, float]) -> float:

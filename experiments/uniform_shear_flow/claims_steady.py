@@ -6,7 +6,7 @@ from jdsmc import Estimate
 from jdsmc.theory import bgk_shear_flow
 from jdsmc.units import VISCOSITY_TIME
 
-from ..claims import Finding, every, percent, positive
+from ..claims import Finding, all_positive, percent, positive
 from .cases import BOTH, FAST, SLOW
 from .data import Shear
 from .measured import ISOTROPIC_SLOPE, over_ihs, slopes
@@ -173,39 +173,40 @@ def measured_drag_temperature(data: Shear) -> Finding:
     return Finding(f"T/T_IHS - 1 = {percent(excess, 2)}", positive(-excess))
 
 
-def _closer(data: Shear, name: str) -> tuple[str, bool | None]:
+def _closer(data: Shear, *names: str) -> Finding:
     """Is EHS with the measured drag closer to IHS than with the local one? α = 0.5, a τ0 = 4."""
-    gases = ("ihs", "ehs", "ehs_measured")
-    ihs, local, measured = (data.steady(gas, 0.5, FAST, name) for gas in gases)
-    gain = abs(local - ihs) - abs(measured - ihs)
-    return f"{name} {local} -> {measured} (IHS {ihs})", positive(gain)
+    gain, shown, gases = {}, {}, ("ihs", "ehs", "ehs_measured")
+    for name in names:
+        ihs, local, measured = (data.steady(gas, 0.5, FAST, name) for gas in gases)
+        gain[name] = abs(local - ihs) - abs(measured - ihs)
+        shown[name] = f"{local} -> {measured} (IHS {ihs})"
+    return all_positive("local -> measured drag", gain, shown)
 
 
 def measured_drag_closer(data: Shear) -> Finding:
-    found = [_closer(data, n) for n in ("temperature", "shear_stress", "normal_stress_xy")]
-    return Finding("; ".join(text for text, _ in found), every(sign for _, sign in found))
+    return _closer(data, "temperature", "shear_stress", "normal_stress_xy")
 
 
 def measured_drag_not_closer(data: Shear) -> Finding:
     found = [_closer(data, name) for name in ("relative_speed_cubed", "a2")]
-    return Finding("; ".join(text for text, _ in found), not any(sign for _, sign in found))
+    return Finding("; ".join(one.measured for one in found), not any(one.holds for one in found))
 
 
 def measured_drag_a3(data: Shear) -> Finding:
     gases = ("ihs", "ehs", "ehs_measured")
     ihs, local, measured = (float(data.steady(gas, 0.5, FAST, "a3")) for gas in gases)
     gain = (measured - local) / (ihs - local)
-    text = f"{_closer(data, 'a3')[0]}: {percent(gain, 0)} of the gap closed"
+    text = f"{_closer(data, 'a3').measured}: {percent(gain, 0)} of the gap closed"
     return Finding(text, 0 < gain < 0.4)
 
 
 def viscosity_factor_worse(data: Shear) -> Finding:
-    texts, worse, gases = [], [], ("ihs", "ehs", "ehs_viscosity")
+    shown, worse, gases = {}, {}, ("ihs", "ehs", "ehs_viscosity")
     for alpha in data.restitutions("ehs_viscosity"):
         ihs, linear, control = (data.steady(g, alpha, FAST, "reduced_viscosity") for g in gases)
-        worse.append(positive(abs(control - ihs) - abs(linear - ihs)))
-        texts.append(f"α = {alpha}: {linear} linear, {control} control, {ihs} IHS")
-    return Finding("η*_s: " + "; ".join(texts), every(worse))
+        worse[f"α = {alpha}:"] = abs(control - ihs) - abs(linear - ihs)
+        shown[f"α = {alpha}:"] = f"{linear} linear, {control} control, {ihs} IHS"
+    return all_positive("η*_s", worse, shown)
 
 
 def bgk_closer_to_ihs(data: Shear) -> Finding:

@@ -69,7 +69,7 @@ def steady(
             means, missed = advance(velocity, pair, shear_rate, steps, step, number)
         rows.append(means)
         excess += missed
-    if excess > 1e-6 * n_gases * n_particles * DURATION:
+    if excess > 1.0 + 1e-6 * n_gases * n_particles * DURATION:
         raise RuntimeError(f"{excess} pairs were faster than the majorant {MAJORANT} v0.")
     rows = np.array(rows)
     rows[:, 4] -= 1.0

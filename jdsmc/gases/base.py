@@ -29,9 +29,10 @@ class AbstractGas(eqx.Module):
                 return speed
 
             def momentum_transfer(self, relative_velocity, outgoing):
-                normal = impact_speed(relative_velocity, outgoing)
+                pairs = list(zip(relative_velocity, outgoing, strict=True))
+                normal = 0.5 * jnp.sqrt(sum((g - e) ** 2 for g, e in pairs))  # impact speed
                 share = (2.0 - self.dissipation * normal**0.2) / 4.0
-                return tuple(share * (g - e) for g, e in zip(relative_velocity, outgoing))
+                return tuple(share * (g - e) for g, e in pairs)
 
     `dimension` is the number of velocity components. Numbers may be arrays (sweeps); every method
     but `check` sees scalars.

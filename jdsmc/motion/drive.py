@@ -2,7 +2,7 @@
 
 import jax.numpy as jnp
 
-from ..types import Scalar, Velocity
+from ..types import Particles, Scalar, Velocity
 
 
 def shear(velocity: Velocity, strain: Scalar) -> Velocity:
@@ -42,17 +42,17 @@ def mean(values) -> Scalar:
     return jnp.mean(jnp.mean(values, axis=-1))
 
 
-def centred(velocity: Velocity) -> Velocity:
+def centred(velocity: Particles) -> Particles:
     """Subtract the mean velocity: removes the drift that rounding lets in."""
     return tuple(v - mean(v) for v in velocity)
 
 
-def temperature_of(velocity: Velocity) -> Scalar:
+def temperature_of(velocity: Particles) -> Scalar:
     """T = m⟨V²⟩/d."""
     return mean(sum(v * v for v in velocity)) / len(velocity)
 
 
-def held_at(velocity: Velocity, temperature) -> tuple[Velocity, Scalar]:
+def held_at(velocity: Particles, temperature) -> tuple[Particles, Scalar]:
     """Velocities of mean zero scaled to a temperature, and the factor they were scaled with."""
     velocity = centred(velocity)
     factor = jnp.sqrt(temperature / temperature_of(velocity))

@@ -19,6 +19,8 @@ def join_gases(results: dict[str, Result]) -> Result:
             groups[group] = _stack([part.reset_coords() for part in parts], gases)
     if "/series" in groups:
         groups["/series"] = groups["/series"].set_coords("time")
+    swept = next(iter(results.values())).attrs.get("swept", "")
+    groups["/"].attrs["swept"] = f"gas {swept}".strip()
     for name in ("stopped", "gas_model"):
         each = {gas: r.attrs[name] for gas, r in results.items()}
         same = len(set(each.values())) == 1

@@ -12,6 +12,7 @@ from ..stats import jackknife
 from .estimates import against_time, steady_estimates
 from .history import History
 from .provenance import provenance, run_name
+from .session import Session
 
 STEADY_FROM = (
     Observable("steady_from_time", "time from which the gas was measured", "τ0"),
@@ -49,13 +50,21 @@ class Labels:
             if one.symbol and not wrong:
                 attributes["symbol"] = one.symbol
             array = np.asarray(values)
-            own = one.dims or tuple(f"{name}_{k}" for k in range(array.ndim - 1 - len(extra)))
+            own = one.dims or self.likely_dims(name, array.shape[1 + len(extra) :])
             data[name] = (
                 (*self.dims, *extra, *own),
                 array.reshape(self.shape + array.shape[1:]),
                 attributes,
             )
         return data.assign_coords({n: c for n, c in self.axes.items() if n in data.dims})
+
+    def likely_dims(self, name: str, shape: tuple[int, ...]) -> tuple[str, ...]:
+        """Of what no observable describes: the only axis of that length, or one of its own."""
+        dims = []
+        for k, length in enumerate(shape):
+            fits = [axis for axis, (_, values, _) in self.axes.items() if len(values) == length]
+            dims.append(fits[0] if len(fits) == 1 and fits[0] not in dims else f"{name}_{k}")
+        return tuple(dims)
 
 
 def common_axes(each: list[dict]) -> dict:
@@ -71,42 +80,21 @@ def common_axes(each: list[dict]) -> dict:
     return shared
 
 
-def assemble(scene: AbstractScene, history: History, tracker, session, attrs: dict) -> Result:
+def assemble(scene: AbstractScene, session: Session, can_be_steady: bool, attrs: dict) -> Result:
     """Everything measured, labelled by the swept dimensions.
 
-    Arguments: the scene as the user made it; the history; the tracker, or None where steady
-    values make no sense; the session; attributes that tell how the run ended.
+    Arguments: the scene as the user made it; the session; False where steady values make no sense;
+    attributes that tell how the run ended. A point of a sweep that has not settled has NaN.
     """
-    options = session.options
+    history, options = session.history, session.options
     labels = Labels(scene, history.scenes, options)
     groups = {"/series": _series(scene, labels, history)}
     root = xr.Dataset(coords=labels.coords)
-    points = range(len(history.scenes))
-    if tracker is not None and history.length and _measured(tracker, history, options.records):
-        starts = [int(start) for start in tracker.start]
-        estimates = [steady_estimates(history, p, starts[p]) for p in points]
-        columns = {}
-        for name in estimates[0][0]:
-            columns[name] = [one[0][name] for one in estimates]
-            columns[f"{name}_error"] = [one[1][name] for one in estimates]
-        for one, clock in zip(STEADY_FROM, ("time", "collisions"), strict=True):
-            columns[one.name] = [_at_start(history[clock][p], starts[p]) for p in points]
-        root = labels.dataset(columns, (*scene.reports, *STEADY_FROM))
-        left_out = {name: [one[2][name] for one in estimates] for name in estimates[0][2]}
-        groups["/left_out"] = labels.dataset(left_out, scene.reports, ("realization",))
-        means = [history.point(p, starts[p], history.length) for p in points]
-        sums = {name: [one[name] for one in means] for name in means[0]}
-        dims = {one.name: one._replace(meaning=one.name) for one in scene.reports}
-        groups["/realizations"] = labels.dataset(
-            sums, [dims[n] for n in sums if n in dims], ("realization",)
-        )
-        if scene.sampled:
-            groups["/distribution"] = _distribution(scene, labels, history, starts, options.records)
-        remarks = {
-            one.remarks(*history.window(p, starts[p], history.length))
-            for p, one in enumerate(history.scenes)
-        }
-        attrs = attrs | {"remarks": " ".join(sorted(remarks - {""}))}
+    settled = _settled(session) if can_be_steady and history.length else np.zeros(1, bool)
+    if np.any(settled):
+        steady, attrs = _steady(scene, labels, session, settled, attrs)
+        root = steady.pop("/")
+        groups |= steady
     root.attrs = provenance(scene, options) | attrs
     root.attrs["swept"] = " ".join(labels.dims)
     root.attrs["n_records"] = history.length
@@ -115,10 +103,62 @@ def assemble(scene: AbstractScene, history: History, tracker, session, attrs: di
     return Result(xr.DataTree.from_dict(groups))
 
 
-def _measured(tracker, history: History, records: int) -> bool:
-    """True if every point has been measured for at least one whole chunk."""
-    ready = tracker.all_measuring and np.all(tracker.start <= history.length - records)
-    return bool(ready)
+def _settled(session: Session) -> np.ndarray:
+    """Points that are steady and have been measured for at least one whole chunk."""
+    measured = session.tracker.start <= session.history.length - session.options.records
+    return session.settled() & measured
+
+
+def _steady(scene, labels, session, settled, attrs: dict) -> tuple[dict, dict]:
+    """Groups of steady values, and the attributes with remarks."""
+    history, starts = session.history, session.tracker.start
+    points = range(len(history.scenes))
+    estimates = [
+        steady_estimates(history, p, int(starts[p])) if settled[p] else None for p in points
+    ]
+    columns = {}
+    for kind, suffix in enumerate(("", "_error")):
+        found = _each([one and one[kind] for one in estimates])
+        columns |= {f"{name}{suffix}": values for name, values in found.items()}
+    for one, clock in zip(STEADY_FROM, ("time", "collisions"), strict=True):
+        at_start = [_at_start(history[clock][p], starts[p]) for p in points]
+        columns[one.name] = np.where(settled, at_start, np.nan)
+    groups = {"/": labels.dataset(columns, (*scene.reports, *STEADY_FROM))}
+    left_out = _each([one and one[2] for one in estimates])
+    groups["/left_out"] = labels.dataset(left_out, scene.reports, ("realization",))
+    means = [history.point(p, starts[p], history.length) if settled[p] else None for p in points]
+    sums, dims = _each(means), {one.name: one for one in scene.reports}
+    groups["/realizations"] = labels.dataset(
+        {name: x for name, x in sums.items() if not np.iscomplexobj(x)},
+        [dims[n]._replace(meaning=n) for n in sums if n in dims],
+        ("realization",),
+    )
+    if scene.sampled:
+        records = session.options.records
+        groups["/distribution"] = _distribution(scene, labels, history, starts, settled, records)
+    remarks = [
+        one.remarks(*history.window(p, starts[p], history.length))
+        for p, one in enumerate(history.scenes)
+        if settled[p]
+    ]
+    remarks += ["Points that are not steady yet have NaN."] if not np.all(settled) else []
+    return groups, attrs | {"remarks": " ".join(sorted(set(remarks) - {""}))}
+
+
+def _each(points: list[dict | None]) -> dict[str, np.ndarray]:
+    """Arrays whose first axis is the point, NaN where there is nothing.
+
+    Names are left out whose arrays differ in shape from point to point (blocks of realizations).
+    """
+    one = next(point for point in points if point)
+    found = {}
+    for name, example in one.items():
+        values = [np.asarray(point[name]) for point in points if point]
+        if any(x.shape != np.shape(example) for x in values):
+            continue
+        nothing = np.full(np.shape(example), np.nan)
+        found[name] = np.stack([np.asarray(p[name]) if p else nothing for p in points])
+    return found
 
 
 def _at_start(clock: np.ndarray, start: int | np.integer) -> float:
@@ -152,13 +192,17 @@ def _one_series(history: History, point: int) -> dict[str, np.ndarray]:
     return {TIME.name: time, **value, **{f"{name}_error": e for name, e in error.items()}}
 
 
-def _distribution(scene, labels, history: History, starts, records: int) -> xr.Dataset:
+def _distribution(scene, labels, history: History, starts, settled, records: int) -> xr.Dataset:
     """Probability densities from the samples of all chunks after the start."""
-    columns: dict[str, list] = {}
+    found: list[dict | None] = []
     for point, one in enumerate(history.scenes):
-        densities = one.sample_densities(history.samples(point, starts[point], records))
+        if not settled[point]:
+            found.append(None)
+            continue
+        densities = one.sample_densities(history.samples(point, int(starts[point]), records))
+        columns = {}
         for name, values in densities.items():
-            error = np.std(values, axis=0, ddof=1) / np.sqrt(len(values))
-            columns.setdefault(name, []).append(np.mean(values, axis=0))
-            columns.setdefault(f"{name}_error", []).append(error)
-    return labels.dataset(columns, scene.sampled)
+            columns[name] = np.mean(values, axis=0)
+            columns[f"{name}_error"] = np.std(values, axis=0, ddof=1) / np.sqrt(len(values))
+        found.append(columns)
+    return labels.dataset(_each(found), scene.sampled)

@@ -137,9 +137,8 @@ def simulate(
     attrs = {"seed": seed, "n_realizations": n_realizations, **limits.attributes()}
 
     def result(stopped: str, whole: bool = True) -> Result:
-        steady = whole and limits.can_be_steady and session.is_settled()
-        tracker = session.tracker if steady else None
-        return assemble(scene, session.history, tracker, session, attrs | {"stopped": stopped})
+        known = whole and limits.can_be_steady and not session.failed
+        return assemble(scene, session, known, attrs | {"stopped": stopped})
 
     try:
         with interruptible() as interrupted, progress_bar(progress) as bar:

@@ -31,7 +31,8 @@ class Session:
         self.correlated = scenes[0].correlated
         self.tracker = tracker_for(limits.approaches, scenes[0].monitored, drift)
         self.precision = np.inf
-        self.failed = self._settled = False
+        self.failed = False
+        self._settled = np.zeros(len(scenes), bool)
         self._asked_at = -1
         self._next_look = self._next_check = 0.0
 
@@ -96,7 +97,11 @@ class Session:
         )
 
     def is_settled(self) -> bool:
-        """True if what is measured may be printed as steady; asked once for each length."""
+        """True if what is measured may be printed as steady at every point."""
+        return bool(np.all(self.settled()))
+
+    def settled(self) -> np.ndarray:
+        """The same of each point; asked once for each length of the history."""
         if self._asked_at != self.history.length:
             self._asked_at = self.history.length
             self._settled = self.tracker.settled(self.history)

@@ -123,12 +123,12 @@ class SteadyTracker:
         self.start[point] = quarter
         return False
 
-    def settled(self, history: History) -> bool:
-        """True if no observable at any point can still be off by a good part of its error.
+    def settled(self, history: History) -> np.ndarray:
+        """For each point, True if no observable can still be off by a good part of its error.
 
         A start that is too early for that is moved on, as far as to the middle of the run.
         """
-        return all(self._settled(history, point) for point in range(len(self.start)))
+        return np.array([self._settled(history, point) for point in range(len(self.start))])
 
     def _settled(self, history: History, point: int) -> bool:
         if self.start[point] < 0:
@@ -224,9 +224,9 @@ class NothingToSettle:
     def update(self, history: History) -> None:
         """Nothing to be found."""
 
-    def settled(self, history: History) -> bool:
-        """Always."""
-        return True
+    def settled(self, history: History) -> np.ndarray:
+        """Every point, from the first record on."""
+        return np.full(len(self.start), history.length > 0)
 
 
 def tracker_for(

@@ -9,7 +9,8 @@ import numpy as np
 
 from ..collisions.meet import Collisions
 from ..fields import check_fields, text
-from ..gases.base import AbstractGas, check_gas
+from ..gases import AbstractGas, ElasticHardSpheres
+from ..gases.base import check_gas
 from ..measure.observable import Observable
 from ..types import Scalar
 from .approach import UNKNOWN, Approach
@@ -69,6 +70,8 @@ class AbstractScene(eqx.Module):
     """Name on the command line; made from the name of the class if empty."""
     dimensions: ClassVar[tuple[int, ...]] = (3,)
     """Numbers of velocity components that the scene can do."""
+    applies_drag: ClassVar[bool] = False
+    """True if the scene applies the drag of a frictional gas."""
     in_space: ClassVar[bool] = False
     """True if particles have places: they are then not exchangeable."""
     traced: ClassVar[bool] = True
@@ -89,6 +92,11 @@ class AbstractScene(eqx.Module):
             raise TypeError(
                 f"{name} needs a gas of {wanted} velocity components; "
                 f"{type(self.gas).__name__} has {self.gas.dimension}."
+            )
+        if isinstance(self.gas, ElasticHardSpheres) and not self.applies_drag:
+            raise TypeError(
+                f"{name} does not apply the drag of ElasticHardSpheres; take a gas without drag, "
+                "or apply it in `step` and state applies_drag = True."
             )
         if not self.reports or not all(isinstance(one, Observable) for one in self.reports):
             raise TypeError(f"{name}.reports must hold at least one jdsmc.Observable.")

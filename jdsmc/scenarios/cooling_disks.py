@@ -13,7 +13,7 @@ import equinox as eqx
 import jax.numpy as jnp
 from jax import lax
 
-from .. import random
+from .. import check, random
 from ..collisions.in_cells import collide_in_layers
 from ..collisions.meet import Collisions
 from ..fields import count, number
@@ -70,6 +70,9 @@ class CoolingDisks(AbstractCoolingDisks):
         default=0.5, static=True, metadata={"meaning": "real disks in a cell, about"}
     )
 
+    def __check_init__(self):
+        check.scalar("real_per_cell", self.real_per_cell, 0.0, math.inf, high_included=False)
+
     def fit_options(self, options: Options) -> Options:
         """Raise ValueError for an unstable system; warn if cells hold few fictive particles."""
         self.check_stability(options.n_particles)
@@ -121,7 +124,8 @@ class CoolingDisks(AbstractCoolingDisks):
         counts = jnp.arange(options.steps, dtype=jnp.uint32)
         state, tally = lax.scan(step, state, (counts, flights))
         if after:
-            state = self.move(state, side, after * options.time_step)
+            rest = jnp.asarray(after * options.time_step, options.dtype)
+            state = self.move(state, side, rest)
         number = options.n_particles * self.copies
         real = jnp.asarray([options.n_particles, number], options.dtype)
         elapsed = jnp.asarray(options.steps * options.time_step, options.dtype)

@@ -28,6 +28,9 @@ from .options import Options
 LOWEST_RESTITUTION = 0.4
 """Below it the deterministic theory, which says what is stable, does not converge."""
 
+SMALLEST = 8.0
+"""N n σ² from which the theory finds a hydrodynamic mode at every restitution."""
+
 SLOWEST_MODE = 5.0
 """Decay times of the mode that are discarded, divided by the 3.6 slow times of any warm-up."""
 
@@ -125,8 +128,18 @@ class AbstractCoolingDisks(AbstractScene):
         return (8.0 * n_real * self.density) ** 0.5
 
     def companion(self, n_real: int) -> langevin.TransverseMode:
-        """The deterministic theory of this system."""
-        return langevin.transverse_mode(float(self.gas.restitution), n_real * float(self.density))
+        """The deterministic theory of this system; ValueError where it is so small that the mode
+        has no exponential tail."""
+        share = n_real * float(self.density)
+        try:
+            return langevin.transverse_mode(float(self.gas.restitution), share)
+        except ValueError as error:
+            raise ValueError(
+                f"n_particles = {n_real} at density = {float(self.density):g} is too small a "
+                f"system: at N n σ² = {share:.4g} the mode decays as fast as the stress behind it, "
+                f"so there is no viscosity. Take {math.ceil(SMALLEST / float(self.density))} "
+                "particles or more."
+            ) from error
 
     def approach(self, options: Options) -> Approach:
         """T~ comes to its fixed point at the rate μ, the mode to its amplitude at the rate 1/τ."""
@@ -142,16 +155,16 @@ class AbstractCoolingDisks(AbstractScene):
 
     def lags(self, n_real: int, spacing: float) -> tuple[int, np.ndarray]:
         """Samples between two lags, and the lags (τ0)."""
-        wanted = 5.0 / self.companion(n_real).decay_rate / (LAGS - 1)
-        stride = max(1, math.ceil(wanted / spacing))
-        return stride, stride * spacing * np.arange(LAGS)
+        return lags_of(self.companion(n_real).decay_rate, spacing)
 
     def averages(self, record: DiskRecord) -> dict[str, np.ndarray]:
         """Modes (complex) and moments of each sample."""
         m: Any = record.moments
         counts = np.asarray(record.counts)
+        modes_now = m.modes[..., 0] + 1j * m.modes[..., 1]
         return {
-            "modes": m.modes[..., 0] + 1j * m.modes[..., 1],
+            "modes": modes_now,
+            "slowest_power": np.mean(np.abs(modes_now[..., :2]) ** 2, axis=-1),
             "temperature": m.temperature,
             "square": m.temperature**2,
             "fourth": m.fourth,
@@ -163,9 +176,7 @@ class AbstractCoolingDisks(AbstractScene):
     def evolution(self, means: dict) -> dict:
         """Temperature, a2 and rates against time, and the power of the slowest modes."""
         norm = means["simulated"] * INITIAL_TEMPERATURE
-        return self.moments(means) | {
-            "mode_power": np.mean(np.abs(means["modes"][..., :2]) ** 2, axis=-1) / norm
-        }
+        return self.moments(means) | {"mode_power": means["slowest_power"] / norm}
 
     def moments(self, means: dict) -> dict:
         """T~, a2 and the rates."""
@@ -204,7 +215,7 @@ class AbstractCoolingDisks(AbstractScene):
         spectrum = Spectrum(means["frequency"], means["weight"], round(length), spacing)
         plan = modes.Plan(spectrum, pace, means["pooled"])
         n_real, simulated = means["counts"]
-        wave_number = 2.0 * math.pi / self.side(n_real)
+        wave_number = 2.0 * math.pi / self.side(round(n_real))
         found = modes.mode_observables(means, plan, simulated, self.growth_rate, wave_number)
         if modes.no_tail(plan.pooled):
             found |= dict.fromkeys(modes.FITTED, np.nan)
@@ -240,6 +251,12 @@ class AbstractCoolingDisks(AbstractScene):
             else "; an elastic gas is stable at any size."
         )
         return " ".join([place, *modes.doubts(run, block, len(means["power"]), plan.pooled)])
+
+
+def lags_of(decay_rate: float, spacing: float) -> tuple[int, np.ndarray]:
+    """Samples between two lags, and the lags (τ0), of a mode that decays so fast."""
+    stride = max(1, math.ceil(5.0 / decay_rate / (LAGS - 1) / spacing))
+    return stride, stride * spacing * np.arange(LAGS)
 
 
 def _slowest(series: dict[str, np.ndarray]) -> np.ndarray:

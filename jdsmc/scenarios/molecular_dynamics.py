@@ -12,6 +12,32 @@ from .disk_modes import AbstractCoolingDisks, DiskMoments, DiskRecord
 from .options import Options
 
 
+class HostMoments(DiskMoments):
+    """One instant, in NumPy's float64."""
+
+    modes: Any
+    temperature: Any
+    fourth: Any
+
+
+class HostCollisions(Collisions):
+    """What happened in a record, in NumPy's float64."""
+
+    accepted: Any
+    energy_lost: Any
+    excess: Any
+    overflow: Any
+    fastest: Any
+    watched: Any = None
+
+
+class HostRecord(DiskRecord):
+    """One sample and what came after it, in NumPy's float64."""
+
+    elapsed: Any
+    counts: Any
+
+
 class MolecularDynamics(AbstractCoolingDisks):
     """Inelastic hard disks of finite size in a periodic square, in the stationary representation.
 
@@ -61,18 +87,18 @@ class MolecularDynamics(AbstractCoolingDisks):
         )
         now = events.faults(state)
         modes = samples.modes[0]
-        modes_and_moments: Any = (
+        moments = HostMoments(
             np.stack([modes.real, modes.imag], axis=-1),
             samples.temperature[0],
             samples.fourth_moment[0],
         )
+        met = {name: float(now[name] - before[name]) for name in now}
         none = np.zeros(())
-        sums: Any = (samples.collisions[0], samples.energy_lost[0], none, none, none)
-        watched = {name: float(now[name] - before[name]) for name in now}
-        sizes: Any = (np.asarray(spacing), np.array([options.n_particles] * 2, float))
-        return state, DiskRecord(
-            DiskMoments(*modes_and_moments), Collisions(*sums, watched=watched), *sizes
+        tally = HostCollisions(
+            samples.collisions[0], samples.energy_lost[0], none, none, none, watched=met
         )
+        sizes = np.array([options.n_particles] * 2, float)
+        return state, HostRecord(moments, tally, np.asarray(spacing), sizes)
 
     def faults(self, record: DiskRecord) -> str:
         """What the events met that should not be."""

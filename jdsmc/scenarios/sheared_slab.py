@@ -91,6 +91,7 @@ class ShearedSlab(AbstractSlab):
     """
 
     reports: ClassVar[tuple[Observable, ...]] = (*GLOBAL, *PROFILES)
+    applies_drag: ClassVar[bool] = True
     monitored: ClassVar[tuple[str, ...]] = ("thermal", "xy", "tilt")
     axis: ClassVar[str] = "y"
 

@@ -40,6 +40,7 @@ class UniformShear(AbstractHomogeneous):
         *(one for one in RHEOLOGY if one != STRESS),
         *(*PRESSURES, *REDUCED),
     )
+    applies_drag: ClassVar[bool] = True
     monitored: ClassVar[tuple[str, ...]] = ("temperature", "xy", "xx", "fourth")
 
     gas: AbstractGas

@@ -37,7 +37,7 @@ from math import inf, pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from jdsmc.check import at_least, in_range, scalar
+from jdsmc.check import at_least, in_range, scalar, whole
 from jdsmc.theory.closed_langevin import navier_stokes_limit, two_moment_limit
 from jdsmc.theory.disk_moments import HIGHEST_DEGREE, cooling_distribution, moments
 from jdsmc.theory.mode_results import (
@@ -97,7 +97,7 @@ def transverse_mode(
     """
     alpha, number = _checked(restitution), _checked_number(reduced_number)
     if degree is not None:
-        _check_degree(degree)
+        degree = _checked_degree(degree)
     wave_number = 2 * pi / sqrt(number)
     table, degrees, orders = _level_table(alpha, wave_number, degree)
     values, truncation = _estimate(table, extrapolated=degree is None)
@@ -248,6 +248,6 @@ def _checked_number(reduced_number: float) -> float:
     return float(reduced_number)
 
 
-def _check_degree(degree: int):
-    at_least("degree", degree, 12)
+def _checked_degree(degree) -> int:
     in_range("degree", degree, 12, HIGHEST_DEGREE)
+    return whole("degree", degree, 12)

@@ -5,6 +5,7 @@ scene, add what is its own: theory beside the values, panels that belong togethe
 """
 
 from . import (
+    cooling_disks,
     fourier_flow,
     generic,
     heat_flux_force,
@@ -16,9 +17,11 @@ from . import (
 from .page import Page, as_html, as_text
 
 _SCENES = {
+    "CoolingDisks": cooling_disks,
     "FourierFlow": fourier_flow,
     "HeatFluxForce": heat_flux_force,
     "HomogeneousCooling": homogeneous_cooling,
+    "MolecularDynamics": cooling_disks,
     "NavierStokes": navier_stokes,
     "ShearedSlab": sheared_slab,
     "UniformShear": uniform_shear,
@@ -33,7 +36,9 @@ def _view(result):
 
 
 def _page(result) -> Page:
-    return _view(result).page(result)
+    """What the view says, and what the scene remarks on the run."""
+    page, remarks = _view(result).page(result), str(result.attrs.get("remarks", ""))
+    return Page(page.blocks, [*([remarks] if remarks else []), *page.notes])
 
 
 def table(result) -> str:

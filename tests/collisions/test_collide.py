@@ -49,6 +49,32 @@ def test_energy_tally_is_the_energy_lost():
     assert float(tally.energy_lost) == pytest.approx(lost, rel=1e-4)
 
 
+def test_a_watch_sums_over_the_candidates():
+    """It sees what the tally counts, to float32 rounding, and changes nothing."""
+    before, key = maxwellian(1, OPTIONS), random.key_from_seed(2)
+    gas = jax.tree.map(f32, InelasticHardSpheres(0.5))
+
+    def watch(met):
+        pairs = zip(met.transfer, met.left, met.right, strict=True)
+        lost = sum(t * (a - b - t) for t, a, b in pairs)
+        return {
+            "made": jnp.sum(met.accepted),
+            "expected": jnp.sum(met.probability),
+            "lost": lost.sum(),
+        }
+
+    arguments = (key, gas, OPTIONS.plan, before, f32(7.0), f32(0.1))
+    plain, tally = jax.jit(lambda: collide(*arguments))()
+    watched, seen = jax.jit(lambda: collide(*arguments, watch))()
+    assert tally.watched is None
+    np.testing.assert_allclose(watched, plain, rtol=1e-6)
+    assert int(seen.watched["made"]) == int(seen.accepted) == int(tally.accepted)
+    assert float(seen.watched["lost"]) == pytest.approx(float(tally.energy_lost), rel=1e-5)
+    # collisions made are a sum of independent chances: within 5 of the standard error at most
+    expected = float(seen.watched["expected"])
+    assert abs(int(tally.accepted) - expected) < 5 * np.sqrt(expected)
+
+
 def _rates(gas, steps, count):
     """Accepted collisions and energy lost per particle and time of a gas held in equilibrium."""
     gas, duration = jax.tree.map(f32, gas), f32(0.1)

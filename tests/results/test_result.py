@@ -194,7 +194,7 @@ def test_files_are_not_replaced(steady, tmp_path):
         steady.save(path)
     assert path.read_text() == "precious"
     steady.save(path, overwrite=True)
-    assert jdsmc.load(path)["a2"] == steady["a2"]
+    assert tuple(jdsmc.load(path)["a2"]) == tuple(steady["a2"])
 
 
 def test_missing_folder(steady, tmp_path):
@@ -238,12 +238,12 @@ def test_plots(steady, sweep, transient, tmp_path):
     for result, label in (
         (steady, "collisions per particle s"),
         (transient, "collisions per particle s"),
-        (sweep, "restitution α"),
+        (sweep, "α"),
     ):
         path = tmp_path / "picture.png"
         figure = result.plot(path)
-        assert figure.axes[-1].get_xlabel() == label
-        assert all(panel.lines for panel in figure.axes)
+        assert label in [panel.get_xlabel() for panel in figure.axes]
+        assert all(panel.lines or panel.collections for panel in figure.axes)
         assert path.read_bytes().startswith(b"\x89PNG")
         plt.close(figure)
 
@@ -258,7 +258,7 @@ def test_table(steady, sweep):
 
 def test_joined_gases(sweep, tmp_path):
     """Series of different lengths are padded; what ended each gas is kept; it can be drawn."""
-    longer = simulate([0.6, 0.8], collisions=60.0, seed=1)
+    longer = simulate([0.6, 0.8], collisions=150.0, seed=1)
     joined = join_gases({"ihs": sweep, "ehs": longer})
     np.testing.assert_array_equal(joined["a2"].value[0], sweep["a2"].value)
     np.testing.assert_array_equal(joined["a2"].value[1], longer["a2"].value)

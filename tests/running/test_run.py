@@ -14,7 +14,7 @@ from .small import scene, simulate
 def test_until_precise():
     """The error reported is the one that was asked, of the observable that was named."""
     lengths = []
-    for name, rtol in (("shear_stress", 0.03), ("temperature", 0.1), ("temperature", 0.01)):
+    for name, rtol in (("shear_stress", 0.03), ("temperature", 0.1), ("temperature", 0.004)):
         result = simulate(observable=name, rtol=rtol)
         assert result[name].error <= rtol * result[name].value
         assert f"{name} is known to" in result.attrs["stopped"]
@@ -33,12 +33,12 @@ def test_until_every_point_is_precise(worst, monkeypatch):
 
 
 def test_until_the_budget_ends():
-    result = simulate(rtol=1e-5, budget=60.0)
-    assert "the budget of 60 collisions per particle ended" in result.attrs["stopped"]
+    result = simulate(rtol=1e-5, budget=120.0)
+    assert "the budget of 120 collisions per particle ended" in result.attrs["stopped"]
     assert "asked 1e-05" in result.attrs["stopped"]
     assert result.is_steady
     # Less than the longest chunk more: 64 steps of κ ≤ 1/2 candidates for each particle.
-    assert 60 - 4 < float(result.series["collisions"][-1]) < 60 + 16
+    assert 120 - 4 < float(result.series["collisions"][-1]) < 120 + 16
 
 
 def test_for_a_time():
@@ -99,7 +99,11 @@ def test_initial_state_and_parameters_of_a_sweep():
     assert np.all(np.diff(late, axis=1) > 0), "more shear, hotter"
 
 
-GASES, PARTICLES = 100, 128
+GASES, PARTICLES = 60, 128
+
+NUMBER = np.arange(1, GASES + 1)
+"""Equal gases have equal random numbers: those below differ by a few units of float32, whose effect
+on any average is 1e-5 at most."""
 
 
 def normal(value, exact, error):
@@ -115,13 +119,13 @@ def assert_normal(numbers, extra=0.0):
 
 
 def test_error_bars_of_series():
-    """z-scores of exactly known quantities in 100 independent gases, 8 realizations each.
+    """z-scores of exactly known quantities in 60 independent gases, 8 realizations each.
 
     An elastic gas at rest has no stress, and a2 = 1/(1 + 2/(3(N-1))) - 1 (velocities uniform on the
     sphere of given energy). The four are uncorrelated. Gases or realizations that share random
     numbers fail: the mean varies as if there were one gas, or the variance is too large.
     """
-    result = simulate(scene(np.ones(GASES), 0.0), duration=1.0, n_particles=PARTICLES)
+    result = simulate(scene(1 - 1.2e-7 * NUMBER, 0.0), duration=1.0, n_particles=PARTICLES)
     a2 = 1 / (1 + 2 / (3 * (PARTICLES - 1))) - 1
     known = {"shear_stress": 0, "normal_stress_xy": 0, "normal_stress_zy": 0, "a2": a2}
     last = result.series.isel(sample=-1)
@@ -130,12 +134,12 @@ def test_error_bars_of_series():
 
 
 def test_error_bars_of_steady_values():
-    """100 equal sheared gases: the scatter of their steady values is what the error bars say.
+    """60 sheared gases, as good as equal: their steady values scatter as the error bars say.
 
-    The mean over the gases stands for the exact value, which takes 1 % from the variance. The
+    The mean over the gases stands for the exact value, which takes 2 % from the variance. The
     correlation of the three is too weak to matter for the bounds.
     """
-    result = simulate(scene(np.full(GASES, 0.5)), collisions=40.0, n_particles=PARTICLES)
+    result = simulate(scene(0.5 + 1e-6 * NUMBER), collisions=80.0, n_particles=PARTICLES)
     estimates = [result[name] for name in ("shear_stress", "temperature", "a2")]
     assert_normal([normal(value, np.mean(value), error) for value, error in estimates])
 

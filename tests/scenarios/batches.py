@@ -9,6 +9,7 @@ import numpy as np
 
 from jdsmc import random, sweep
 from jdsmc.running.engine import Engine
+from jdsmc.running.estimates import steady_estimates
 from jdsmc.running.history import History
 from jdsmc.scenarios import Options
 
@@ -17,6 +18,13 @@ def window(scene, chunks, skip, **options):
     """Averages (realizations, ...) of one scene over its chunks from `skip` on."""
     history, records = simulate(scene, chunks, **options)
     return history.point(0, skip * records, history.length)
+
+
+def observed(scene, chunks, skip, **options):
+    """Observables and their errors over the chunks from `skip` on, whether or not it is steady."""
+    history, records = simulate(scene, chunks, **options)
+    value, error, _ = steady_estimates(history, 0, skip * records)
+    return value, error
 
 
 def simulate(scene, chunks, *, n_particles=4000, n_realizations=16, seed=1, records=8, **options):

@@ -18,7 +18,10 @@ from jdsmc.cli import main
 from jdsmc.results.gravity_effect import at_equal_gradient
 from jdsmc.scenarios import FourierFlow
 
+from .batches import observed
+
 SPHERES = InelasticHardSpheres(1.0)
+SIZES = {"n_particles": 2000, "n_realizations": 8, "records": 1, "in_space": True}
 SMALL = {"n_particles": 2000, "n_realizations": 8, "steps_per_record": 8, "progress": False}
 
 
@@ -78,18 +81,16 @@ def test_equal_walls_under_gravity_give_the_barometric_law():
     """n ∝ exp(-2 g z) with m v0² = 2 k T0, at uniform T = T0 and without heat flux."""
     gravity, length, layers = 0.2, 4.0, 16
     scene = FourierFlow(SPHERES, 1.0, gravity, length, layers=layers)
-    result = run(scene, duration=160.0, seed=5, **SMALL)
-    assert result.is_steady
-    steady = result.to_xarray().to_dataset()
+    value, error = observed(scene, 50, 8, time_step=0.05, seed=5, **SIZES)  # 160 τ0, the first 26
     edges = np.linspace(0, length, layers + 1)
     expected = -np.diff(np.exp(-2 * gravity * edges)) * layers
     expected /= 1 - np.exp(-2 * gravity * length)
     for name, law in (("density", expected), ("temperature", 1.0), ("heat_flux", 0.0)):
-        scores = _z_scores(steady[name].values, steady[f"{name}_error"].values, law)
+        scores = _z_scores(value[name], error[name], law)
         # 16 values from 8 realizations: Student's t with 7 degrees of freedom has a variance of 1.4
         assert np.mean(scores**2) < 3.0, name
         assert np.max(np.abs(scores)) < 7.0, name
-    assert steady["density_error"].values.max() < 0.02
+    assert error["density"].max() < 0.02
 
 
 def test_gravity_that_empties_the_hot_side():
@@ -99,21 +100,20 @@ def test_gravity_that_empties_the_hot_side():
     """
     gravity, length, layers = 1.0, 10.0, 20
     scene = FourierFlow(SPHERES, 1.0, gravity, length, layers=layers)
-    result = run(scene, duration=60.0, time_step=0.02, seed=5, **SMALL)
-    steady = result.to_xarray().to_dataset()
+    value, error = observed(scene, 48, 16, time_step=0.02, seed=5, **SIZES)  # 60 τ0, the first 20
     edges = np.linspace(0, length, layers + 1)
     expected = -np.diff(np.exp(-2 * gravity * edges)) * layers
     filled = expected > 0.2  # at least 20 particles
     for name, law in (("density", expected[filled]), ("temperature", 1.0)):
-        scores = _z_scores(steady[name][filled], steady[f"{name}_error"][filled], law)
+        scores = _z_scores(value[name][filled], error[name][filled], law)
         # 5 values from 8 realizations, each with a variance of 1.4 (Student's t)
         assert np.mean(scores**2) < 4.0, name
-    density, temperature = steady["density"].values, steady["temperature"].values
+    density, temperature = value["density"], value["temperature"]
     assert np.all(density[-4:] == 0)
     np.testing.assert_array_equal(np.isnan(temperature), density == 0)
     # no particle reaches the hot wall, and in equilibrium the cold one gives no heat
-    assert steady["heat_flux_hot_wall"] == 0
-    assert abs(steady["heat_flux_cold_wall"]) < 5 * steady["heat_flux_cold_wall_error"]
+    assert value["heat_flux_hot_wall"] == 0
+    assert abs(value["heat_flux_cold_wall"]) < 5 * error["heat_flux_cold_wall"]
 
 
 def test_same_rule_as_the_paper_finds_the_point_of_equal_gradient(conducting):
@@ -172,7 +172,7 @@ class Restless(AbstractGas):
     [
         (ValueError, "needs an elastic gas", InelasticHardSpheres([1.0, 0.9])),
         (ValueError, "needs an elastic gas", ElasticHardSpheres([1.0, 0.9])),
-        (ValueError, "whose pair rate is a power of the relative speed", Restless()),
+        (ValueError, "needs a gas whose pair rate is a power of the relative speed", Restless()),
         (TypeError, "needs a gas of 3 velocity components", InelasticHardDisks(1.0)),
     ],
 )
@@ -189,6 +189,7 @@ def test_gases_that_do_not_belong_are_refused(error, message, gas):
         ({"gravity": 2.0}, r"gravity = 2 is outside the allowed range \[-1, 1\]"),
         ({"length": 0.0}, r"length = 0 is outside the allowed range \(0, 1000\]"),
         ({"layers": 0}, r"layers = 0 is outside the allowed range \[1, inf\)"),
+        ({"layers": -3}, r"layers = -3 is outside"),
         ({"gas": InelasticHardSpheres(0.9)}, "needs an elastic gas"),
         ({"gas": ElasticHardSpheres(0.9)}, "needs an elastic gas"),
     ],
@@ -197,6 +198,14 @@ def test_bad_input_is_refused(changed, message):
     good = {"gas": SPHERES, "cold_temperature": 0.05}
     with pytest.raises(ValueError, match=message):
         FourierFlow(**good | changed)
+
+
+def test_layers_are_counted():
+    """What is whole is an integer, as of every size; the rest is refused."""
+    assert type(FourierFlow(SPHERES, 0.5, layers=20.0).layers) is int
+    for layers in (20.5, True, "20"):
+        with pytest.raises(TypeError, match=f"layers must be an integer, got {layers!r}"):
+            FourierFlow(SPHERES, 0.5, layers=layers)
 
 
 @pytest.mark.parametrize(("layers", "particles"), [(20, 5_000), (200, 10_000)])
@@ -215,7 +224,7 @@ def test_a_step_that_crosses_the_slab_is_refused():
 def test_sweep_on_the_command_line(tmp_path, capsys):
     out, picture = tmp_path / "f.h5", tmp_path / "f.png"
     command = "sweep fourier --cold-temperature 0.5 --gravity=-0.02,0 --length 4 --layers 10"
-    sizes = "--particles 500 --realizations 8 --duration 60 --no-progress"
+    sizes = "--particles 500 --realizations 8 --duration 240 --no-progress"
     files = ["--out", str(out), "--plot", str(picture)]
     assert main([*command.split(), *sizes.split(), *files]) == 0
     assert picture.stat().st_size > 10_000

@@ -11,6 +11,7 @@ from scipy.integrate import solve_ivp
 import jdsmc
 from jdsmc import ElasticHardSpheres, FaultError, InelasticHardSpheres, random
 from jdsmc.collisions.meet import Collisions
+from jdsmc.fields import check_fields
 from jdsmc.measure import heat
 from jdsmc.scenarios import HeatFluxForce, Options, heat_flux_force
 from jdsmc.scenarios.scaled import scaled_to_start
@@ -298,8 +299,11 @@ def test_field_out_of_range(field):
 
 
 def test_unknown_scheme():
+    """The check of a finished scene: that of the annotations, in tests only, comes before it."""
+    scene = _scene()
+    object.__setattr__(scene, "scheme", "euler")
     with pytest.raises(ValueError, match="scheme = 'euler' is unknown; choose one of exact, paper"):
-        _scene(scheme="euler")
+        check_fields(scene)
 
 
 @pytest.mark.parametrize("field", [0.0, [0.0, 0.1]])

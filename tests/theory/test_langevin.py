@@ -209,7 +209,7 @@ def test_bad_types_and_times_are_refused():
     with pytest.raises(TypeError, match="restitution"):
         transverse_mode(np.array([0.8, 0.9]), 20)  # pyright: ignore[reportArgumentType]
     with pytest.raises(TypeError, match="degree"):
-        transverse_mode(0.8, 20, 16.0)  # pyright: ignore[reportArgumentType]
+        transverse_mode(0.8, 20, 16.5)  # pyright: ignore[reportArgumentType]
     with pytest.raises(ValueError, match="time"):
         transverse_mode(0.8, 20).autocorrelation([-1.0])
     with pytest.raises(ValueError, match="order"):
