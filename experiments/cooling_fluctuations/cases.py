@@ -15,14 +15,16 @@ def cases(size) -> list[Case]:
     """Every simulation of a size, the cheapest first."""
     alpha, number = size.studied
     found = []
-    for per_cell, copies, duration in size.coarse:
+    for per_cell, copies, duration, step in size.coarse:
         scene = CoolingDisks(
             InelasticHardDisks(alpha),
             density=size.density,
             copies=copies,
             real_per_cell=float(per_cell or number),
         )
-        found.append(Case(coarse_name(per_cell, copies), scene, _options(size, number, duration)))
+        options = _options(size, number, duration)
+        options |= {"time_step": step, "steps_per_record": round(0.7 / step)}
+        found.append(Case(coarse_name(per_cell, copies), scene, options))
     for alpha, number, duration in size.dynamics:
         scene = MolecularDynamics(InelasticHardDisks(alpha), density=size.density)
         name = case_name("dynamics", alpha, number)

@@ -49,7 +49,7 @@ class Noise(Measurements):
 
     def coarse(self) -> dict[tuple[float, int], Result]:
         """Simulations by the real disks of a cell (0: one cell) and the copies."""
-        rows = [(per_cell, copies) for per_cell, copies, _ in self.size.coarse]
+        rows = [(per_cell, copies) for per_cell, copies, *_ in self.size.coarse]
         return {row: self.results[cases.coarse_name(*row)] for row in rows}
 
     def theory(self, alpha: float, number: float) -> langevin.TransverseMode:
@@ -84,6 +84,18 @@ class Noise(Measurements):
         values = [getattr(self.theory(alpha, n), name) for n in numbers]
         return float(np.polynomial.polynomial.polyfit(numbers[0] / numbers, values, order)[0])
 
+    def ratio_of_lines(self, alpha: float) -> float:
+        """η1/η of the paper's continuation of exact values."""
+        noise, viscosity = (
+            self.exact_continued(alpha, name, 1)
+            for name in ("noise_viscosity_ratio", "viscosity_ratio")
+        )
+        return noise / viscosity
+
+    def lines(self) -> np.ndarray:
+        """Restitutions of the lines of the theory."""
+        return np.linspace(min(self.restitutions()), 1.0, self.size.lines).round(6)
+
     def by_theory(self, method: str, alpha: float, name: str) -> Estimate:
         """The theory's limit times the mean of measured over exact values at finite N."""
         return self.against_theory(method, alpha, name) * self.limit(alpha, name)
@@ -95,9 +107,7 @@ class Noise(Measurements):
             for n in self.numbers(method, alpha)
         ]
         weights = np.array([float(one.error) ** -2 for one in ratios])
-        return mean(
-            [r * float(w) for r, w in zip(ratios, weights / weights.mean(), strict=True)]
-        )
+        return mean([r * float(w) for r, w in zip(ratios, weights / weights.mean(), strict=True)])
 
 
 @lru_cache(maxsize=256)

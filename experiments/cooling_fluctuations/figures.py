@@ -1,16 +1,19 @@
 """Figures 1 to 7, each with the deterministic theory as lines."""
 
 import numpy as np
+from scipy.interpolate import make_interp_spline
 
 from jdsmc.theory.closed_langevin import two_moment_limit
 
 from ..case import estimate
+from ..numbers import stack
 from ..style import COLOURS, legend_of, points
 from .claims import enskog
 from .data import PAPER, Noise
 
 MARKERS = {"dynamics": "o", "monte_carlo": "s"}
 LABELS = {"dynamics": "MD", "monte_carlo": "DSMC"}
+SHADES = dict(zip(MARKERS, COLOURS, strict=False))
 QUANTITIES = {"viscosity_ratio": r"$\eta/\eta_0$", "noise_viscosity_ratio": r"$\eta_1/\eta_0$"}
 LAG = r"$s$ ($\tau_0$)"
 
@@ -103,57 +106,70 @@ def sizes(data: Noise, axes) -> None:
     ax.legend(handles=legend_of(entries), fontsize=8)
 
 
-def _methods() -> dict[str, dict]:
+def _methods(shades: dict | None = None) -> dict[str, dict]:
     look = {"color": "black", "ls": "none", "mfc": "none"}
-    return {LABELS[m]: {**look, "marker": marker} for m, marker in MARKERS.items()}
+    return {
+        LABELS[m]: look | {"marker": marker} | ({"color": shades[m]} if shades else {})
+        for m, marker in MARKERS.items()
+    }
+
+
+def _smooth(ax, x, y, **look) -> None:
+    """A curve through few exact values."""
+    fine = np.linspace(x[0], x[-1], 100)
+    curve = make_interp_spline(x, y, k=min(3, len(x) - 1))(fine)
+    ax.plot(fine, curve, **{"lw": 1.2} | look)
+
+
+def _theory_line(data: Noise, ax, alpha: float, name: str) -> None:
+    """Exact values against 1000/N, and the straight line through those at the paper's N."""
+    first = data.size.numbers[0]
+    numbers = first * np.array([30, 10, 5, 3, 2, 1.4, 1])
+    exact = [data.limit(alpha, name)]
+    exact += [getattr(data.theory(alpha, n), name) for n in numbers]
+    _smooth(ax, [0, *(1e3 / numbers)], exact, color="black")
+    ax.plot(0, exact[0], "k*", ms=9, mfc="none", clip_on=False)
+    stable = np.array(data.stable(alpha))
+    line = np.polyfit(1e3 / stable, [getattr(data.theory(alpha, n), name) for n in stable], 1)
+    ends = np.array([0, 1e3 / first])
+    ax.plot(ends, np.polyval(line, ends), color="grey", ls=":", lw=1.2)
+
+
+def _measured(data: Noise, ax, method: str, alpha: float, name: str, colour) -> None:
+    """Points against 1000/N, and polynomials through them."""
+    numbers = np.array(data.numbers(method, alpha))
+    found = stack(data.value(method, alpha, n, name) for n in numbers)
+    points(ax, 1e3 / numbers, found, fmt=MARKERS[method], color=colour)
+    fine = np.linspace(0, 1e3 / numbers[0], 50)
+    shown = ax.get_ylim()
+    for order, line in ((1, "--"), (2, "-.")):
+        fit = data.fit(method, alpha, name, order)
+        if fit:
+            terms = [float(t.value) for t in fit.terms]
+            curve = np.polynomial.polynomial.polyval(fine * numbers[0] / 1e3, terms)
+            ax.plot(fine, curve, color=colour, ls=line, lw=0.9)
+    ax.set_ylim(shown)
 
 
 def _against_number(data: Noise, axes, name: str) -> None:
     """A quantity against 1/N: points, their lines, the theory, their limits."""
     alphas = data.restitutions()
-    first = data.size.numbers[0]
-    far = np.array([1e6, 100, 30, 16, 10, 7, 5, 4, 3, 2.4, 2, 1.7, 1.4, 1.2, 1]) * first
     for ax, alpha in zip(axes.flat, alphas, strict=False):
-        exact = [data.limit(alpha, name)]
-        exact += [getattr(data.theory(alpha, n), name) for n in far[far <= 30 * first]]
-        x = np.array([0, *(1 / far[far <= 30 * first])]) * 1e3
-        ax.plot(x, exact, color="black", lw=1.2)
-        ax.plot(0, exact[0], "k*", ms=9, mfc="none", clip_on=False)
-        fine = np.linspace(0, 1e3 / first, 100)
-        stable = np.array(data.stable(alpha))
-        values = [getattr(data.theory(alpha, n), name) for n in stable]
-        straight = np.polyfit(1e3 / stable, values, 1)
-        ax.plot(fine, np.polyval(straight, fine), color="grey", ls=":", lw=1.2)
-        for (method, marker), colour in zip(MARKERS.items(), COLOURS, strict=False):
-            if alpha not in data.restitutions(method):
-                continue
-            numbers = np.array(data.numbers(method, alpha))
-            found = [data.value(method, alpha, n, name) for n in numbers]
-            value, error = np.array([[float(p) for p in one] for one in found]).T
-            ax.errorbar(
-                1e3 / numbers, value, error, fmt=marker, mfc="none", color=colour, capsize=2
-            )
-            for order, line in ((1, "--"), (2, "-.")):
-                fit = data.fit(method, alpha, name, order)
-                if fit:
-                    terms = [float(t.value) for t in fit.terms]
-                    curve = np.polynomial.polynomial.polyval(fine * numbers[0] / 1e3, terms)
-                    ax.plot(fine, curve, color=colour, ls=line, lw=0.9)
+        _theory_line(data, ax, alpha, name)
+        for method, colour in SHADES.items():
+            if alpha in data.restitutions(method):
+                _measured(data, ax, method, alpha, name, colour)
         ax.set_title(rf"$\alpha$ = {alpha:g}", fontsize=10)
         ax.set(xlabel="1000/N", ylabel=QUANTITIES[name], xlim=(-0.03, None))
-    for ax in list(axes.flat)[len(alphas) :]:
-        ax.axis("off")
-    entries = _methods() | {
+    entries = _methods(SHADES) | {
         "theory (star: N → ∞)": {"color": "black"},
         "straight line through its values": {"color": "grey", "ls": ":"},
-        "straight line through points": {"color": "black", "ls": "--"},
-        "parabola through points": {"color": "black", "ls": "-."},
+        "straight line through points": {"color": COLOURS[0], "ls": "--"},
+        "parabola through points": {"color": COLOURS[0], "ls": "-."},
     }
-    for label, colour in zip(LABELS.values(), COLOURS, strict=False):
-        entries[label] |= {"color": colour}
-    axes[0, 0].figure.legend(
-        handles=legend_of(entries), fontsize=8, loc="outside lower center", ncol=3
-    )
+    for ax in list(axes.flat)[len(alphas) :]:
+        ax.axis("off")
+    axes.flat[-1].legend(handles=legend_of(entries), loc="center")
 
 
 @PAPER.figure("fig4_viscosity", 2, 3, 11.0, 7.0)
@@ -168,73 +184,69 @@ def noise(data: Noise, axes) -> None:
     _against_number(data, axes, "noise_viscosity_ratio")
 
 
-@PAPER.figure("fig6_restitution", 1, 2, 11.0, 4.6)
+@PAPER.figure("fig6_restitution", 1, 2, 12.0, 4.6)
 def restitution(data: Noise, axes) -> None:
     """Fig. 6: η and η1 against α at every N, and for N → ∞ by straight lines."""
-    fine = np.linspace(min(data.restitutions()), 1.0, 13)
+    fine = data.lines()
     shades = _shades(sorted({n for a in data.restitutions() for n in data.numbers("dynamics", a)}))
     for ax, (name, symbol) in zip(axes[0], QUANTITIES.items(), strict=True):
         for number, colour in shades.items():
             stable = [a for a in fine if number in data.stable(a)]
             exact = [getattr(data.theory(a, number), name) for a in stable]
-            ax.plot(stable, exact, color=colour, lw=1.2)
-        ax.plot(fine, [data.limit(a, name) for a in fine], color="black", lw=1.2)
-        ax.plot(
-            fine, [data.exact_continued(a, name, 1) for a in fine], color="grey", ls=":", lw=1.2
-        )
-        for method, marker in MARKERS.items():
-            shift = 0.002 if method == "monte_carlo" else -0.002
+            _smooth(ax, stable, exact, color=colour)
+        _smooth(ax, fine, [data.limit(a, name) for a in fine], color="black")
+        lines = [data.exact_continued(a, name, 1) for a in fine]
+        _smooth(ax, fine, lines, color="grey", ls=":")
+        for method, shift in (("dynamics", -0.002), ("monte_carlo", 0.002)):
             for alpha in data.restitutions(method):
-                found = {
-                    shades[n]: data.value(method, alpha, n, name)
-                    for n in data.numbers(method, alpha)
-                }
-                found["black"] = data.continued(method, alpha, name, 1)
-                for colour, one in found.items():
-                    if one is not None:
-                        points(ax, alpha + shift, one, fmt=marker, color=colour)
+                numbers = data.numbers(method, alpha)
+                found = {shades[n]: data.value(method, alpha, n, name) for n in numbers}
+                limit = data.continued(method, alpha, name, 1)
+                for colour, one in (found | ({"black": limit} if limit else {})).items():
+                    points(ax, alpha + shift, one, fmt=MARKERS[method], color=colour)
         ax.set(xlabel=r"$\alpha$", ylabel=symbol)
     entries = {f"N = {n}": {"color": c} for n, c in shades.items()} | _methods()
-    entries["N → ∞ (points: straight lines)"] = {"color": "black"}
-    entries["straight line through theory"] = {"color": "grey", "ls": ":"}
-    axes[0, 0].legend(handles=legend_of(entries), fontsize=8)
+    entries["N → ∞ (points:\nstraight lines)"] = {"color": "black"}
+    entries["straight line\nthrough theory"] = {"color": "grey", "ls": ":"}
+    axes[0, 1].legend(
+        handles=legend_of(entries), fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5)
+    )
 
 
-@PAPER.figure("fig7_ratio", 1, 2, 11.0, 4.6, sharey=True)
+@PAPER.figure("fig7_ratio", 1, 2, 12.0, 4.6, sharey=True)
 def ratio(data: Noise, axes) -> None:
     """Fig. 7: η1/η for N → ∞ by straight lines and by the theory; beside the limits."""
-    fine = np.linspace(min(data.restitutions()), 1.0, 25)
-    name, tail = "noise_over_viscosity", "tail_noise_over_viscosity"
-    closed = [two_moment_limit(a) for a in fine]
+    fine, name = data.lines(), "noise_over_viscosity"
+    dense = np.linspace(fine[0], 1.0, 100)
+    closed = [two_moment_limit(a) for a in dense]
+    exact, white = ([data.limit(a, n) for a in fine] for n in (name, f"tail_{name}"))
+    lines = [data.ratio_of_lines(a) for a in fine]
     for ax, way in zip(axes[0], ("straight lines", "theory"), strict=True):
-        ax.plot(fine, [data.limit(a, name) for a in fine], color="black", label="theory")
-        ax.plot(
-            fine, [data.limit(a, tail) for a in fine], "k-.", lw=1, label="theory, white noise"
-        )
-        look = {"color": "grey", "lw": 1}
-        ax.plot(fine, [one.noise_over_viscosity for one in closed], **look, label="closed form")
-        label = "closed form, white noise"
-        white = [one.tail_noise_over_viscosity for one in closed]
-        ax.plot(fine, white, **look, ls="-.", label=label)
-        if way == "straight lines":
-            lines = [
-                data.exact_continued(a, "noise_viscosity_ratio", 1)
-                / data.exact_continued(a, "viscosity_ratio", 1)
-                for a in fine
-            ]
-            ax.plot(fine, lines, color=COLOURS[2], ls=":", label="straight lines through theory")
-        for (method, marker), colour in zip(MARKERS.items(), COLOURS, strict=False):
-            label = LABELS[method]
+        _smooth(ax, fine, exact, color="black")
+        _smooth(ax, fine, white, color="black", ls="-.")
+        ax.plot(dense, [one.noise_over_viscosity for one in closed], color="grey", lw=1)
+        ax.plot(dense, [one.tail_noise_over_viscosity for one in closed], color="grey", ls="-.")
+        _smooth(ax, fine, lines, color=COLOURS[2], ls=":")
+        for method, colour in SHADES.items():
             for alpha in data.restitutions(method):
                 if way == "theory":
                     found = data.by_theory(method, alpha, name)
                 else:
-                    both = [data.continued(method, alpha, n, 1) for n in reversed(QUANTITIES)]
-                    found = both[0] / both[1]
-                points(ax, alpha, found, fmt=marker, color=colour, label=label)
-                label = None
+                    noise, viscosity = (
+                        data.continued(method, alpha, n, 1) for n in reversed(QUANTITIES)
+                    )
+                    found = noise / viscosity if noise and viscosity else None
+                if found:
+                    points(ax, alpha, found, fmt=MARKERS[method], color=colour)
         ax.set_title(f"continued to N → ∞ by {way}", fontsize=10)
         ax.set(xlabel=r"$\alpha$", ylabel=r"$\eta_1/\eta$")
-        ax.legend(fontsize=8)
-
-
+    entries = _methods(SHADES) | {
+        "theory": {"color": "black"},
+        "theory, white noise": {"color": "black", "ls": "-."},
+        "two moments": {"color": "grey"},
+        "two moments,\nwhite noise": {"color": "grey", "ls": "-."},
+        "straight lines\nthrough theory": {"color": COLOURS[2], "ls": ":"},
+    }
+    axes[0, 1].legend(
+        handles=legend_of(entries), fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5)
+    )
