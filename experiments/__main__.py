@@ -15,6 +15,7 @@ PAPERS = (
     "fourier_flow_gravity",
     "conduction_limits",
     "conduction_limits.convergence",
+    "cooling_fluctuations",
 )
 
 
