@@ -109,8 +109,18 @@ class Session:
 
     def _precise(self) -> bool:
         """Look, and tell if it is enough; a start that was moved on has less to show."""
+        if not self._long_enough():
+            return False
         self._look()
         return self.precision <= self.limits.rtol
+
+    def _long_enough(self) -> bool:
+        """True if no scene finds the measurement too short for error bars."""
+        history, starts = self.history, self.tracker.start
+        return bool(np.all(starts < history.length)) and all(
+            scene.long_enough(*history.window(p, int(starts[p]), history.length))
+            for p, scene in enumerate(history.scenes)
+        )
 
     def _look(self) -> None:
         """Relative error of the observables at the worst point."""

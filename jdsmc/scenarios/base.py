@@ -172,6 +172,10 @@ class AbstractScene(eqx.Module):
         """A sentence if a whole run so far cannot be trusted (arguments as of `window`)."""
         return ""
 
+    def long_enough(self, series: dict[str, np.ndarray], weights: np.ndarray) -> bool:
+        """True if error bars of such a measurement can be believed (arguments as of `window`)."""
+        return True
+
     def remarks(self, series: dict[str, np.ndarray], weights: np.ndarray) -> str:
         """A sentence that goes with the results, or none (arguments as of `window`)."""
         return ""

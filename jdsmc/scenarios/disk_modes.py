@@ -235,6 +235,14 @@ class AbstractCoolingDisks(AbstractScene):
             f"limit of stability, N n σ² = {limit:.4g}; take fewer particles."
         )
 
+    def long_enough(self, series: dict[str, np.ndarray], weights: np.ndarray) -> bool:
+        """Each realization lasts 20 decay times of theory, all together 100."""
+        decay_times = (
+            np.sum(weights, axis=1) * self.companion(round(np.mean(series["real"]))).decay_rate
+        )
+        least, whole = modes.SHORTEST_BLOCK, modes.SHORTEST_RUN
+        return bool(np.min(decay_times) >= least and np.sum(decay_times) >= whole)
+
     def remarks(self, series: dict[str, np.ndarray], weights: np.ndarray) -> str:
         """How long the run was against the decay of the mode, if it was short; its distance from
         the limit of stability."""
