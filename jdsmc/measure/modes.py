@@ -176,9 +176,7 @@ def block_means(
     return means, Plan(spectrum, pace, pooled)
 
 
-def mode_observables(
-    mean: dict, plan: Plan, particles: float, growth_rate: float, wave_number: float
-) -> dict:
+def mode_observables(mean: dict, plan: Plan, particles, growth_rate, wave_number) -> dict:
     """Everything of `ModeMeasurement.value`, and C(s), from an average of block means."""
     found = fit(mean["power"], plan.spectrum, STRESS_RATE * plan.pace, plan.pooled)
     norm = particles * mean["temperature"]
