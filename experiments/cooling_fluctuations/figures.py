@@ -135,11 +135,9 @@ def _theory_line(data: Noise, ax, alpha: float, name: str) -> None:
     ax.plot(ends, np.polyval(line, ends), color="grey", ls=":", lw=1.2)
 
 
-def _measured(data: Noise, ax, method: str, alpha: float, name: str, colour) -> None:
-    """Points against 1000/N, and polynomials through them."""
+def _polynomials(data: Noise, ax, method: str, alpha: float, name: str, colour) -> None:
+    """Through the points, within what the axes show already."""
     numbers = np.array(data.numbers(method, alpha))
-    found = stack(data.value(method, alpha, n, name) for n in numbers)
-    points(ax, 1e3 / numbers, found, fmt=MARKERS[method], color=colour)
     fine = np.linspace(0, 1e3 / numbers[0], 50)
     shown = ax.get_ylim()
     for order, line in ((1, "--"), (2, "-.")):
@@ -156,9 +154,13 @@ def _against_number(data: Noise, axes, name: str) -> None:
     alphas = data.restitutions()
     for ax, alpha in zip(axes.flat, alphas, strict=False):
         _theory_line(data, ax, alpha, name)
-        for method, colour in SHADES.items():
-            if alpha in data.restitutions(method):
-                _measured(data, ax, method, alpha, name, colour)
+        run = {m: colour for m, colour in SHADES.items() if alpha in data.restitutions(m)}
+        for method, colour in run.items():
+            numbers = np.array(data.numbers(method, alpha))
+            found = stack(data.value(method, alpha, n, name) for n in numbers)
+            points(ax, 1e3 / numbers, found, fmt=MARKERS[method], color=colour)
+        for method, colour in run.items():
+            _polynomials(data, ax, method, alpha, name, colour)
         ax.set_title(rf"$\alpha$ = {alpha:g}", fontsize=10)
         ax.set(xlabel="1000/N", ylabel=QUANTITIES[name], xlim=(-0.03, None))
     entries = _methods(SHADES) | {
