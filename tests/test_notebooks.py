@@ -19,6 +19,16 @@ ABSOLUTE_PATH = re.compile(
 )
 notebook = pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda p: p.stem)
 
+SLOW = {"02_fourier_flow"}
+"""Two minutes of CPU time even when small: heat diffuses across five slabs."""
+executed = pytest.mark.parametrize(
+    "path",
+    [
+        pytest.param(p, id=p.stem, marks=pytest.mark.slow if p.stem in SLOW else ())
+        for p in NOTEBOOKS
+    ],
+)
+
 
 def kernel_of_this_interpreter(folder: Path):
     """A kernel manager for `sys.executable`, whatever kernels are installed."""
@@ -46,7 +56,7 @@ def test_there_are_notebooks():
     assert NOTEBOOKS
 
 
-@notebook
+@executed
 def test_notebook_runs(path, tmp_path, monkeypatch):
     """All cells, at the small size, in an empty folder; an error in a cell is raised here."""
     for name in ("IPYTHONDIR", "JUPYTER_RUNTIME_DIR", "JUPYTER_CONFIG_DIR", "MPLCONFIGDIR"):
