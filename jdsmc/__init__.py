@@ -14,7 +14,7 @@ from .gases import (
 from .measure.observable import Observable
 from .results import Result, load
 from .running.cores import leave_cores_to_gases
-from .running.run import run
+from .running.run import resume, run
 
 __all__ = [
     "AbstractGas",
@@ -34,6 +34,7 @@ __all__ = [
     "load",
     "number",
     "random",
+    "resume",
     "run",
     "scenarios",
     "theory",

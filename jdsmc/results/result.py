@@ -5,6 +5,7 @@ import sys
 from collections.abc import Iterator
 from html import escape
 from pathlib import Path
+from typing import Any
 
 import equinox as eqx
 import numpy as np
@@ -24,6 +25,8 @@ class Result:
 
     def __init__(self, tree: xr.DataTree):
         self._tree = tree
+        self.under_way: Any = None
+        """The run that made it, for `jdsmc.resume`; None if it was loaded, joined or cut."""
 
     def __getitem__(self, name: str) -> Estimate:
         """Steady mean and error of an observable; KeyError names what there is."""

@@ -1,6 +1,6 @@
 """Run a scene: until steady, then until precise; or for a given time."""
 
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -134,11 +134,30 @@ def simulate(
     seed = check.whole("seed", seed, 0)
     limits.check_warm_up()
     session = Session(scenes, n_realizations, seed, options, limits)
-    attrs = {"seed": seed, "n_realizations": n_realizations, **limits.attributes()}
+    return go_on(scene, session, {"seed": seed, "n_realizations": n_realizations}, progress)
+
+
+class UnderWay(NamedTuple):
+    """What a result must know to go on: the run as it stood when the result was made."""
+
+    scene: AbstractScene
+    session: Session
+    attrs: dict
+    length: int
+    start: np.ndarray
+
+
+def go_on(scene: AbstractScene, session: Session, attrs: dict, progress: bool) -> Result:
+    """Advance a session until its limits are met; raise what went wrong, with what there is."""
+    limits = session.limits
 
     def result(stopped: str, whole: bool = True) -> Result:
         known = whole and limits.can_be_steady and not session.failed
-        return assemble(scene, session, known, attrs | {"stopped": stopped})
+        start = session.tracker.start.copy()  # to settle may move it
+        told = attrs | limits.attributes() | {"stopped": stopped}
+        made = assemble(scene, session, known, told)
+        made.under_way = UnderWay(scene, session, attrs, session.history.length, start)
+        return made
 
     try:
         with interruptible() as interrupted, progress_bar(progress) as bar:
@@ -158,3 +177,41 @@ def simulate(
         error.result = result(stopped)
         raise error
     return result(stopped)
+
+
+def resume(
+    result: Result,
+    *,
+    duration: float | None = None,
+    collisions: float | None = None,
+    observable: str | tuple[str, ...] | None = None,
+    rtol: float | None = None,
+    budget: float = 5_000.0,
+    progress: bool = True,
+) -> Result:
+    """Go on with the run that made a result, in the same process; limits as of `run`.
+
+    With `duration` or `collisions`, counted from the start of the first run, the new result is to
+    the bit what asking for them at once would have given. Raises ValueError for a result that was
+    loaded, joined or cut (only a run of this process still holds its gas), for one that has been
+    gone on from, and for a time that was reached already.
+    """
+    under_way = result.under_way
+    if under_way is None:
+        raise ValueError(
+            "this result cannot go on: it was loaded, joined or cut, and holds no gas; run its "
+            "scene again."
+        )
+    scene, session, attrs, length, start = under_way
+    if session.history.length != length:
+        raise ValueError("this result has been gone on from already; go on from the latest one.")
+    limits = Limits(
+        session.history.scenes,
+        session.options,
+        **{"duration": duration, "collisions": collisions, "observable": observable},
+        **{"rtol": rtol, "budget": budget},
+    )
+    session.go_on(limits, start)
+    if limits.fixed and session.progress() >= 1.0:
+        raise ValueError("the time asked for was reached already; ask for more.")
+    return go_on(scene, session, attrs, progress)

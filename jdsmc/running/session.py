@@ -36,6 +36,13 @@ class Session:
         self._asked_at = -1
         self._next_look = self._next_check = 0.0
 
+    def go_on(self, limits: Limits, start: np.ndarray) -> None:
+        """Take other limits; measurements start where they did before anything was settled."""
+        self.limits = limits
+        self.tracker.start[:] = start
+        self.precision, self.failed = np.inf, False
+        self._asked_at, self._next_look = -1, 0.0
+
     def advance(self) -> None:
         """One chunk, its faults checked, and the steady state looked for."""
         record, sample = self.engine.advance()
