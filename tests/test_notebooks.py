@@ -19,8 +19,8 @@ ABSOLUTE_PATH = re.compile(
 )
 notebook = pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda p: p.stem)
 
-SLOW = {"02_fourier_flow"}
-"""Two minutes of CPU time even when small: heat diffuses across five slabs."""
+SLOW = {"02_fourier_flow", "04_cooling_fluctuations"}
+"""Two minutes of CPU time even when small: heat diffuses across five slabs, modes decay slowly."""
 executed = pytest.mark.parametrize(
     "path",
     [
