@@ -182,6 +182,7 @@ class ReportsNames(Still):
 
 class Forgetful(Still):
     reports: ClassVar = (*Still.reports, jdsmc.Observable("entropy", "entropy per particle"))
+    monitored: ClassVar = ()  # steady from the start
 
 
 class Blind(Still):
