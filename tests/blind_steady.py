@@ -31,7 +31,7 @@ OBSERVABLES = {
     "shear": SHEARED,
     "slab": ("mean_temperature", *SHEARED[1:]),
     "cooling": ("relative_speed_cubed", "a2"),
-    "force": ("conductivity_ratio",),
+    "force": ("modified_conductivity",),
     "fourier": ("mean_heat_flux", "heat_flux_cold_wall", "heat_flux_hot_wall"),
 }
 GASES = {"ihs": InelasticHardSpheres, "ehs": ElasticHardSpheres}
