@@ -5,8 +5,6 @@ import sys
 from importlib import import_module
 from pathlib import Path
 
-import jdsmc
-
 from .paper import Paper
 
 PAPERS = (
@@ -26,7 +24,6 @@ def load(name: str) -> Paper:
 
 def cli(paper: str = "", arguments: list[str] | None = None) -> None:
     """The command of one paper, or of all."""
-    jdsmc.leave_cores_to_gases()
     parser = argparse.ArgumentParser(f"python -m experiments{'.' if paper else ''}{paper}")
     if not paper:
         parser.add_argument("paper", choices=PAPERS, help="the study to reproduce")

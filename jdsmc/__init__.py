@@ -13,7 +13,6 @@ from .gases import (
 )
 from .measure.observable import Observable
 from .results import Result, load
-from .running.cores import leave_cores_to_gases
 from .running.run import resume, run
 
 __all__ = [
@@ -30,7 +29,6 @@ __all__ = [
     "choice",
     "combine",
     "count",
-    "leave_cores_to_gases",
     "load",
     "number",
     "random",

@@ -17,12 +17,11 @@ _CHECKED = [
     if module.name not in ("theory", "events")
 ]
 with install_import_hook(_CHECKED, "beartype.beartype"):
-    import jdsmc
+    import jdsmc  # noqa: F401
 
 import jax  # noqa: E402
 import matplotlib  # noqa: E402
 
 matplotlib.use("agg")
-jdsmc.leave_cores_to_gases()
 # A float64 constant must not widen a float32 gas, nor an integer become a float, unnoticed.
 jax.config.update("jax_numpy_dtype_promotion", "strict")

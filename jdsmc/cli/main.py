@@ -6,7 +6,6 @@ from pathlib import Path
 
 from ..errors import FaultError
 from ..results.result import load
-from ..running.cores import leave_cores_to_gases
 from . import catalogue
 from .arguments import Parser
 from .keep import check_picture, draw, picture_of, show
@@ -30,7 +29,6 @@ def main(arguments: list[str] | None = None) -> int:
     chunk, and a reader that has seen enough (`jdsmc show f | head`) ends the printing silently.
     """
     never_fail_to_print()
-    leave_cores_to_gases()
     try:
         status = command(list(sys.argv[1:] if arguments is None else arguments))
         sys.stdout.flush()
