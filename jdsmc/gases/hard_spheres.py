@@ -19,6 +19,12 @@ def restitution_field():
     return number(meaning, low=0.0, high=1.0, low_included=False, example=0.9)
 
 
+def normal_transfer(restitution, relative_velocity, outgoing):
+    """(1+α)/2 of what is exchanged along the line of centres; elastic particles exchange it all."""
+    share = (1.0 + restitution) / 4.0
+    return tuple(share * (g - e) for g, e in zip(relative_velocity, outgoing, strict=True))
+
+
 class InelasticHardSpheres(AbstractGas):
     """Smooth inelastic hard spheres (IHS) with constant normal restitution.
 
@@ -32,8 +38,7 @@ class InelasticHardSpheres(AbstractGas):
         return speed
 
     def momentum_transfer(self, relative_velocity, outgoing):
-        share = (1.0 + self.restitution) / 4.0
-        return tuple(share * (g - e) for g, e in zip(relative_velocity, outgoing, strict=True))
+        return normal_transfer(self.restitution, relative_velocity, outgoing)
 
     def speed_exponent(self) -> float:
         return 1.0
@@ -60,8 +65,7 @@ class InelasticHardDisks(AbstractGas):
         return speed
 
     def momentum_transfer(self, relative_velocity, outgoing):
-        share = (1.0 + self.restitution) / 4.0
-        return tuple(share * (g - e) for g, e in zip(relative_velocity, outgoing, strict=True))
+        return normal_transfer(self.restitution, relative_velocity, outgoing)
 
     def speed_exponent(self) -> float:
         return 1.0

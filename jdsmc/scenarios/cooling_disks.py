@@ -16,13 +16,19 @@ from jax import lax
 from .. import check, random
 from ..collisions.in_cells import collide_in_layers
 from ..collisions.meet import Collisions
-from ..fields import count, number
+from ..fields import count
 from ..gases import InelasticHardDisks
 from ..motion.drive import held_at, mean
 from ..motion.plane import cell_of, fly, still, transverse_modes
 from ..types import Key, Positions, Velocities
 from ..units import INITIAL_TEMPERATURE
-from .disk_modes import AbstractCoolingDisks, DiskMoments, DiskRecord
+from .disk_modes import (
+    AbstractCoolingDisks,
+    DiskMoments,
+    DiskRecord,
+    density_field,
+    growth_rate_field,
+)
 from .options import Options
 from .slab import uniform
 
@@ -59,15 +65,8 @@ class CoolingDisks(AbstractCoolingDisks):
     default_steps: ClassVar[int] = 10
 
     gas: InelasticHardDisks
-    density: Any = number("density n σ²", low=0.0, high=0.5, low_included=False, default=0.01)
-    growth_rate: Any = number(
-        "growth rate μ of the scaled velocities",
-        "1/τ0",
-        low=0.0,
-        high=1.0,
-        names=("cooling",),
-        default="cooling",
-    )
+    density: Any = density_field()
+    growth_rate: Any = growth_rate_field()
     copies: int = count("fictive particles for each real one", default=10)
     real_per_cell: float = eqx.field(
         default=0.5, static=True, metadata={"meaning": "real disks in a cell, about"}

@@ -13,6 +13,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from .. import check
+from ..fields import number
 from ..gases import InelasticHardDisks
 from ..measure import modes
 from ..measure.mode_spectrum import Spectrum
@@ -58,6 +59,17 @@ OBSERVABLES = (
     Observable("autocorrelation", "C(s)/(N T~/m)", dims=LAG, symbol="C(s)"),
 )
 MODE_POWER = Observable("mode_power", "power of the slowest modes |ξ|²/(N T0/m)", symbol="|ξ|²/NT")
+
+
+def density_field():
+    """n σ² in (0, 0.5]."""
+    return number("density n σ²", low=0.0, high=0.5, low_included=False, default=0.01)
+
+
+def growth_rate_field():
+    """μ in 1/τ0, or "cooling": the one that holds the dilute gas at T0."""
+    facts = {"low": 0.0, "high": 1.0, "names": ("cooling",), "default": "cooling"}
+    return number("growth rate μ of the scaled velocities", "1/τ0", **facts)
 
 
 class DiskMoments(eqx.Module):

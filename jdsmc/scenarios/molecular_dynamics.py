@@ -6,9 +6,14 @@ import numpy as np
 
 from .. import events
 from ..collisions.meet import Collisions
-from ..fields import number
 from ..gases import InelasticHardDisks
-from .disk_modes import AbstractCoolingDisks, DiskMoments, DiskRecord
+from .disk_modes import (
+    AbstractCoolingDisks,
+    DiskMoments,
+    DiskRecord,
+    density_field,
+    growth_rate_field,
+)
 from .options import Options
 
 
@@ -56,15 +61,8 @@ class MolecularDynamics(AbstractCoolingDisks):
     default_steps: ClassVar[int] = 10
 
     gas: InelasticHardDisks
-    density: Any = number("density n σ²", low=0.0, high=0.5, low_included=False, default=0.01)
-    growth_rate: Any = number(
-        "growth rate μ of the scaled velocities",
-        "1/τ0",
-        low=0.0,
-        high=1.0,
-        names=("cooling",),
-        default="cooling",
-    )
+    density: Any = density_field()
+    growth_rate: Any = growth_rate_field()
 
     def fit_options(self, options: Options) -> Options:
         """Raise ValueError for an unstable system."""
