@@ -3,9 +3,7 @@
 from typing import NamedTuple
 
 from jdsmc import Estimate
-from jdsmc.theory import sonine_elastic
 from jdsmc.theory.transport import first_sonine, modified_first_sonine
-from jdsmc.units import CONVERGED_ORDER
 
 from ..numbers import Even
 from .cases import KICK_STEP
@@ -72,12 +70,3 @@ def both_routes(data: Heat, restitution: float) -> tuple[Estimate, Estimate, flo
     impulse = coefficient(data, CONDUCTIVITY.name, restitution).limit
     force = limit(data, CONDUCTIVITY, restitution).limit
     return impulse, force, float(impulse.distance(force))
-
-
-def elastic(name: str) -> float:
-    """The elastic value, from ten Sonine polynomials."""
-    if name == "density_coefficient":
-        return 0.0
-    if name == "viscosity":
-        return sonine_elastic.viscosity_ratio(CONVERGED_ORDER)
-    return sonine_elastic.conductivity_ratio(CONVERGED_ORDER)

@@ -9,7 +9,7 @@ from jdsmc.units import CONVERGED_ORDER
 from ..numbers import mean, stack
 from ..style import COLOURS, band, legend_of, points
 from .cases import PAPER_FIELD, STUDY_FIELD, STUDY_RESTITUTION
-from .coefficients import NAMES, coefficient, elastic
+from .coefficients import NAMES, coefficient
 from .data import PAPER, Heat
 from .distribution import HEAT_FLUX_LIMIT, odd_part, phi, share, truncated
 from .limits import CONDUCTIVITY, MARGINAL, SONINE, at_field, limit, limits, used
@@ -69,7 +69,7 @@ def conductivity(data: Heat, axes) -> None:
     ax.plot(FINE, first_sonine(FINE).modified_conductivity, "k-", lw=1, label="first Sonine")
     modified = modified_first_sonine(FINE).modified_conductivity
     ax.plot(FINE, modified, "k--", lw=1, label="modified first Sonine")
-    exact = elastic("conductivity")
+    exact = sonine_elastic.converged("conductivity")
     ax.annotate(f"{exact:.6f}", (1.0, exact), (0.8, 0.975), arrowprops={"arrowstyle": "->"})
     ax.set(xlabel="coefficient of restitution α", ylabel="κ'/κ0", ylim=(0.95, 1.65))
     ax.legend(fontsize=8, **BARS)
@@ -215,7 +215,14 @@ def navier_stokes(data: Heat, axes) -> None:
         ax.plot(FINE, getattr(first_sonine(FINE), name), "k-", lw=1, label="first Sonine")
         modified = getattr(modified_first_sonine(FINE), name)
         ax.plot(FINE, modified, "k--", lw=1, label="modified first Sonine")
-        ax.plot(1.0, elastic(name), "k*", markersize=11, markerfacecolor="none", label="exact")
+        ax.plot(
+            1.0,
+            sonine_elastic.converged(name),
+            "k*",
+            markersize=11,
+            markerfacecolor="none",
+            label="exact",
+        )
         ax.set_ylabel(label)
     force = limits(data, CONDUCTIVITY)
     points(axes[0, 0], data.restitutions, force, color=COLOURS[0], label="force, ε* → 0")

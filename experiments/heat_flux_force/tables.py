@@ -80,7 +80,7 @@ def navier_stokes(data: Heat) -> list[str]:
             by_step = _signed(found.by_step) if found.by_step else ""
             checks = [_signed(found.excess), by_step, f"{found.tail:.4f}"]
             models = [f"{x:.4f}" for x in found.theory]
-            known = f"{coefficients.elastic(name):.5f}" if alpha == 1 else ""
+            known = f"{sonine_elastic.converged(name):.5f}" if alpha == 1 else ""
             rows.append([label, f"{alpha:g}", *found.kicks, found.limit, *checks, *models, known])
     header = ["coefficient", "α", *(f"ε = {k:g}" for k in strengths), "ε → 0"]
     header += [f"ε = {strengths[0]:g} minus limit", "dt minus dt/2", "tail in time"]

@@ -32,6 +32,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import eval_genlaguerre, roots_genlaguerre
 
+from ..units import CONVERGED_ORDER
+
 Floats = NDArray[np.float64]
 HIGHEST_ORDER = 30  # checked for rounding up to here
 
@@ -134,3 +136,10 @@ def _checked_order(order: int) -> int:
     if not 1 <= value <= HIGHEST_ORDER:
         raise ValueError(f"order must be an integer in 1 ... {HIGHEST_ORDER}, got {order!r}.")
     return value
+
+
+def converged(name: str) -> float:
+    """An elastic coefficient by its name in `transport.navier_stokes`, converged in the order."""
+    if name == "density_coefficient":
+        return 0.0
+    return (viscosity_ratio if name == "viscosity" else conductivity_ratio)(CONVERGED_ORDER)

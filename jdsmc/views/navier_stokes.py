@@ -4,7 +4,6 @@ import numpy as np
 
 from ..theory import sonine_elastic
 from ..theory.transport import first_sonine, modified_first_sonine
-from ..units import CONVERGED_ORDER
 from . import common, generic, pictures
 from .page import Page
 
@@ -21,15 +20,6 @@ def has_theory(result) -> bool:
 def known(restitution, name: str) -> tuple:
     """A coefficient of both first Sonine approximations."""
     return tuple(vars(theory(restitution))[name] for theory in APPROXIMATIONS.values())
-
-
-def elastic(name: str) -> float:
-    """The converged value at α = 1."""
-    if name == "density_coefficient":
-        return 0.0
-    if name == "viscosity":
-        return sonine_elastic.viscosity_ratio(CONVERGED_ORDER)
-    return sonine_elastic.conductivity_ratio(CONVERGED_ORDER)
 
 
 def page(result) -> Page:
@@ -63,7 +53,7 @@ def _theory(alpha: float) -> generic.Theory:
     columns = {"first Sonine": cell(0), "modified": cell(1)}
     if alpha == 1:
         columns["converged"] = lambda name, index: (
-            f"{elastic(name):.5g}" if name in COEFFICIENTS else ""
+            f"{sonine_elastic.converged(name):.5g}" if name in COEFFICIENTS else ""
         )
     return columns
 
@@ -110,4 +100,6 @@ def _theory_lines(panel, result, x: str, name: str) -> None:
     for line, text, style in zip(known(fine, name), APPROXIMATIONS, ("-", "--"), strict=True):
         panel.plot(fine, line, f"k{style}", lw=1, label=text)
     if values.max() == 1:
-        panel.plot([1.0], [elastic(name)], "k*", ms=9, mfc="none", label="converged")
+        panel.plot(
+            [1.0], [sonine_elastic.converged(name)], "k*", ms=9, mfc="none", label="converged"
+        )
