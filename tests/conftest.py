@@ -5,9 +5,13 @@ All of jdsmc but `theory`, plain NumPy on anything array-like, which beartype ca
 """
 
 import importlib.util
+import os
 import pkgutil
 
 from jaxtyping import install_import_hook
+
+if "PYTEST_XDIST_WORKER" in os.environ:  # one thread of XLA in each of the processes
+    os.environ.setdefault("NPROC", "1")
 
 _SPEC = importlib.util.find_spec("jdsmc")
 assert _SPEC is not None

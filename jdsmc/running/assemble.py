@@ -9,7 +9,7 @@ from ..results.result import Result
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
 from ..stats import jackknife
-from .estimates import against_time, steady_estimates
+from .estimates import against_time, printed_estimates
 from .history import History
 from .provenance import provenance, run_name
 from .session import Session
@@ -114,7 +114,7 @@ def _steady(scene, labels, session, settled, attrs: dict) -> tuple[dict, dict]:
     history, starts = session.history, session.tracker.start
     points = range(len(history.scenes))
     estimates = [
-        steady_estimates(history, p, int(starts[p])) if settled[p] else None for p in points
+        printed_estimates(history, p, int(starts[p])) if settled[p] else None for p in points
     ]
     columns = {}
     for kind, suffix in enumerate(("", "_error")):

@@ -68,6 +68,13 @@ class Engine:
         self.chunks += 1
         return gathered([output for _, output in done], self.shape)
 
+    def take(self, states: list, chunks: int) -> None:
+        """Go on from these states of the groups, after so many chunks."""
+        devices = [jax.tree.leaves(keys)[0].device for keys in self._keys]
+        placed = zip(states, devices, strict=True)
+        self.states = [jax.device_put(state, device) for state, device in placed]
+        self.chunks = int(chunks)
+
     def _share(self, work) -> list:
         """Work for every group; the first compiles for all, threads at once would compile twice."""
         numbers = range(len(self._scenes))

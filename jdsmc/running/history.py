@@ -43,6 +43,23 @@ class History:
         self._samples.append(sample)
         self.total_excess += float(np.sum(tally.excess))
 
+    def state(self) -> dict:
+        """All of it as a pytree of arrays and numbers; `take` puts it back."""
+        return {
+            "columns": {name: self[name] for name in self._columns},
+            "totals": dict(self._totals),
+            "samples": list(self._samples),
+            "length": self.length,
+            "total_excess": self.total_excess,
+        }
+
+    def take(self, state: dict) -> None:
+        """Become the history that gave this `state`."""
+        self.length, self.total_excess = int(state["length"]), float(state["total_excess"])
+        self._columns = {name: np.array(values) for name, values in state["columns"].items()}
+        self._totals = dict(state["totals"])
+        self._samples = list(state["samples"])
+
     def _continued(self, name: str, increments: np.ndarray) -> np.ndarray:
         """Running total before each record; the total so far is kept from chunk to chunk."""
         start = self._totals.get(name, np.zeros(increments.shape[:2]))

@@ -37,6 +37,11 @@ class HostEngine:
             )
         )
 
+    def take(self, states: list, chunks: int) -> None:
+        """Go on from these states of the gases, after so many chunks."""
+        self.states = [jax.tree.map(np.array, state) for state in states]
+        self.chunks = int(chunks)
+
     def advance(self):
         """One chunk. Returns (records, sample): pytrees of arrays (points, realizations, ...)."""
 

@@ -1,19 +1,17 @@
 """A run under way, of any scene: engine, history, steady-state tracker, precision."""
 
+import jax
 import numpy as np
 
 from ..errors import FaultError
 from ..scenarios.options import Options
 from . import faults
 from .engine import Engine
-from .estimates import steady_changes, steady_estimates
+from .estimates import BLOCKS, printed_estimates, steady_changes
 from .history import History
 from .host_engine import HostEngine
 from .limits import Limits
 from .steady import tracker_for
-
-BLOCKS = 4
-"""Blocks of a measurement for the second estimate of its precision."""
 
 
 class Session:
@@ -35,6 +33,28 @@ class Session:
         self._settled = np.zeros(len(scenes), bool)
         self._asked_at = -1
         self._next_look = self._next_check = 0.0
+
+    def state(self) -> dict:
+        """What the run has come to, one pytree of NumPy arrays and numbers: a checkpoint.
+
+        `take` of a session made with the same arguments goes on from it to the bit.
+        """
+        return {
+            "engine": [jax.tree.map(np.asarray, state) for state in self.engine.states],
+            "chunks": self.engine.chunks,
+            "history": self.history.state(),
+            "tracker": self.tracker.state(),
+            "next_look": self._next_look,
+            "next_check": self._next_check,
+        }
+
+    def take(self, state: dict) -> None:
+        """Become the session that gave this `state`."""
+        self.engine.take(state["engine"], int(state["chunks"]))
+        self.history.take(state["history"])
+        self.tracker.take(state["tracker"])
+        self._next_look, self._next_check = float(state["next_look"]), float(state["next_check"])
+        self._asked_at = -1
 
     def go_on(self, limits: Limits, start: np.ndarray) -> None:
         """Take other limits; measurements start where they did before anything was settled."""
@@ -136,24 +156,18 @@ class Session:
             self.precision = max(self._relative_error(point) for point in points)
 
     def _relative_error(self, point: int) -> float:
-        """The larger of two estimates: from realizations, and from blocks of them.
+        """The largest relative error of the observables asked for, as it would be printed.
 
-        The first alone has few degrees of freedom, and a run that stops when it happens to be
-        small would report error bars that are too small. The second has more of them, but takes
-        blocks as independent, so it is used for this decision only.
+        The larger of two: a run that stops when one estimate happens to be small would print
+        errors that are too small.
         """
-        first, last = self.tracker.start[point], self.history.length
-        blocks = self.limits.records is None and not self.correlated
-        if last - first < (2 * BLOCKS if blocks else 1):
+        first = int(self.tracker.start[point])
+        least = 1 if self.correlated or self.limits.records is not None else 2 * BLOCKS
+        if self.history.length - first < least:
             return np.inf
-        value, error, _ = steady_estimates(self.history, point, first)
-        block_error = error
-        if blocks:
-            edges = np.linspace(first, last, BLOCKS + 1).astype(int)
-            _, block_error, _ = steady_estimates(self.history, point, edges)
+        value, error, _ = printed_estimates(self.history, point, first)
         return max(
-            float(np.max(np.maximum(error[name], block_error[name]) / np.abs(value[name])))
-            for name in self.limits.observables
+            float(np.max(error[name] / np.abs(value[name]))) for name in self.limits.observables
         )
 
     def progress(self) -> float:

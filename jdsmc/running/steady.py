@@ -78,6 +78,20 @@ class SteadyTracker:
         self._drift = drift
         self._next_test = self.least.copy()
 
+    def state(self) -> dict:
+        """What it has found, arrays (points,); `take` puts it back."""
+        return {
+            "start": self.start.copy(),
+            "slow_time": self.slow_time.copy(),
+            "next_test": self._next_test.copy(),
+        }
+
+    def take(self, state: dict) -> None:
+        """Become the tracker that gave this `state`."""
+        self.start, self.slow_time, self._next_test = (
+            np.array(state[name]) for name in ("start", "slow_time", "next_test")
+        )
+
     def update(self, history: History) -> None:
         """Test every point that is due."""
         collisions = history.mean_collisions()
@@ -220,6 +234,14 @@ class NothingToSettle:
         self.start = np.zeros(points, int)
         self.least = np.zeros(points)
         self.all_measuring = True
+
+    def state(self) -> dict:
+        """Where measurements start, (points,)."""
+        return {"start": self.start.copy()}
+
+    def take(self, state: dict) -> None:
+        """Become the tracker that gave this `state`."""
+        self.start = np.array(state["start"])
 
     def update(self, history: History) -> None:
         """Nothing to be found."""

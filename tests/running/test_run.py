@@ -149,5 +149,5 @@ def test_error_bars_of_runs_that_stop_when_precise():
     """200 runs; stopping when the error happens to be small may add 0.3 to the variance."""
     runs = [simulate(rtol=0.03, seed=seed) for seed in range(200)]
     for name in ("shear_stress", "temperature", "a2"):
-        value, error = np.transpose([run[name] for run in runs])
+        value, error = np.transpose([tuple(run[name]) for run in runs])
         assert_normal(normal(value, np.mean(value), error), extra=0.3)
