@@ -3,11 +3,11 @@
     python -m benchmarks.cooling_disks [--folder benchmarks/results]
     python -m benchmarks.cooling_disks --speed
 
-α = 0.8, N = 1000, n σ² = 0.01, where the theory knows T~/T0 = 1, a2 and η. What recollisions of the
-same few particles do shows in T~; what the width of the cells does, in η. Rows are kept in
-cooling_disks.json; a second call goes on where the first was ended. `--speed` times steps (N = 3000,
-M = 10), and runs by DSMC and molecular dynamics until η is known to 2% (N = 2000). Start it with
-NPROC=1 in the environment to see what one core does.
+α = 0.8, N = 1000, n σ² = 0.01, where the theory knows T~/T0 = 1, a2 and η. What recollisions of
+the same few particles do shows in T~; what the width of the cells does, in η. Rows are kept in
+cooling_disks.json; a second call goes on where the first was ended. `--speed` times steps
+(N = 3000, M = 10), and runs by DSMC and molecular dynamics until η is known to 2% (N = 2000).
+Start it with NPROC=1 in the environment to see what one core does.
 """
 
 import argparse
@@ -28,6 +28,7 @@ from jdsmc.theory import langevin
 from .timing import machine, say
 
 ALPHA, NUMBER, DENSITY = 0.8, 1000, 0.01
+GAS = f"α = {ALPHA}, N = {NUMBER}, n σ² = {DENSITY}"
 DURATION, REALIZATIONS = 1200.0, 8
 SAMPLED_EVERY = 0.7
 LEAN = [(1, 1.0), (1, 0.4), (1, 0.2)]
@@ -98,12 +99,12 @@ def table(rows: list[dict]) -> str:
     """As Markdown."""
     exact = langevin.cooling_state(ALPHA).a2
     lines = [
-        f"# Cooling disks: copies, cells, time step (α = {ALPHA}, N = {NUMBER}, n σ² = {DENSITY})",
+        f"# Cooling disks: copies, cells, time step ({GAS})",
         "",
-        f"Made by `python -m benchmarks.cooling_disks`; do not edit. {REALIZATIONS} realizations of "
-        f"{DURATION:g} τ0. Exact, for cells without width: T~/T0 = 1, a2 = {exact:.4f}; η is shown "
-        f"over its exact value. CPU seconds; the last column is scaled to an error of {WANTED:.0%} "
-        "of η. The default in bold.",
+        f"Made by `python -m benchmarks.cooling_disks`; do not edit. {REALIZATIONS} realizations "
+        f"of {DURATION:g} τ0. Exact, for cells without width: T~/T0 = 1, a2 = {exact:.4f}; η is "
+        "shown over its exact value. CPU seconds; the last column is scaled to an error of "
+        f"{WANTED:.0%} of η. The default in bold.",
         "",
         "| copies | real a cell | fictive a cell | Δx/λ0 | dt/τ0 | T~/T0 - 1 | a2 | η/exact - 1 "
         "| CPU (s) | CPU (s) to 2% |",
@@ -156,7 +157,7 @@ def picture(rows: list[dict], path: Path) -> None:
             panel.set_xscale("log")
             plain_numbers(panel.xaxis)
     panels[0].set_ylabel("T~/T0 - 1")
-    title = f"Cooling disks, α = {ALPHA}, N = {NUMBER}, n σ² = {DENSITY}, dt = 0.07 τ0"
+    title = f"Cooling disks, {GAS}, dt = 0.07 τ0"
     pictures.finish(figure, panels, title).savefig(path, dpi=120)
 
 
@@ -198,9 +199,9 @@ def speed() -> None:
     met = REALIZATIONS * real * copies * float(series["collisions"][-1]) / 2.0
     say(
         f"DSMC, N = {real}, M = {copies}, four modes every five steps: "
-        f"{processor / steps * 1e9:.1f} ns of CPU and {wall / steps * 1e9:.1f} ns of wall a fictive "
-        f"particle-step; {met / processor:.3g} collisions a second of CPU, {met / wall:.3g} of wall "
-        "(C++, one core: 18 ns, 3.4e6)"
+        f"{processor / steps * 1e9:.1f} ns of CPU and {wall / steps * 1e9:.1f} ns of wall a "
+        f"fictive particle-step; {met / processor:.3g} collisions a second of CPU, "
+        f"{met / wall:.3g} of wall (C++, one core: 18 ns, 3.4e6)"
     )
     number = 2000
     kinds = {
