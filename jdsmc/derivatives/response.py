@@ -204,5 +204,8 @@ def value_at(scene, path: str) -> Any:
     """The number of a scene at a path."""
     here = scene
     for step in path.split("."):
-        here = vars(here)[step] if not isinstance(here, dict | tuple | list) else here[step]
+        if isinstance(here, tuple | list):
+            here = here[int(step)]
+        else:
+            here = here[step] if isinstance(here, dict) else vars(here)[step]
     return here

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..scenarios.base import weighted_means
+from ..scenarios.base import AbstractScene, weighted_means
 from ..scenarios.homogeneous import AbstractHomogeneous
 from ..stats import jackknife
 from .observed import slopes, state_of
@@ -19,7 +19,7 @@ LOWER = 2
 
 
 def steady_derivatives(
-    scene: AbstractHomogeneous,
+    scene: AbstractScene,
     samples: Samples,
     point: int,
     first: int,
@@ -32,7 +32,7 @@ def steady_derivatives(
     with `_error`, `_truncation` and `_left_out` behind it: arrays (numbers, ...) and, of the last,
     (realizations, numbers, ...). The error is the larger one of realizations and of blocks.
     """
-    if not samples.has(first):
+    if not isinstance(scene, AbstractHomogeneous) or not samples.has(first):
         return None
     means, weights, _ = samples.point(point, first)
     degree = samples.sampler.degree

@@ -108,7 +108,7 @@ def _advance(scene, keys, states, first_record, options: Options, sampler: Sampl
         def one_record(state, count):
             own = random.fold_in(key, first_record + count)
             sums = None
-            if sampler is not None:
+            if sampler is not None and reference is not None:
                 sums = sampler.sample(own, scene.gas, state.velocity, reference)
             state, record = scene.advance(own, state, options)
             return state, (record, sums)
