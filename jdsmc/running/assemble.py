@@ -5,6 +5,7 @@ import xarray as xr
 
 from .. import sweep
 from ..derivatives.steady import steady_derivatives
+from ..derivatives.transient import transient_derivatives
 from ..measure.observable import CLOCKS, COLLISION_RATIO, COLLISIONS, TIME, Observable
 from ..results.result import Result
 from ..scenarios.base import AbstractScene
@@ -179,6 +180,18 @@ def _sensitivity(scene, labels: Labels, session: Session, settled) -> dict[str, 
             ("/sensitivity_left_out", left_out, along),
         ):
             groups[group] = labels.dataset(data, scene.reports, extra).assign_coords(names)
+    if samples.sampler.each:
+        series = [
+            transient_derivatives(
+                one, samples, p, np.mean(history["time"][p], axis=0), request.paths
+            )
+            for p, one in enumerate(history.scenes)
+        ]
+        columns = _each(series)
+        time = {"time": columns.pop("time")}
+        data = labels.dataset(columns, scene.reports, ("parameter", "sample"))
+        data = data.merge(labels.dataset(time, CLOCKS, ("sample",))).assign_coords(names)
+        groups["/sensitivity_series"] = data.set_coords("time")
     return groups
 
 
