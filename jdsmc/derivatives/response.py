@@ -19,7 +19,7 @@ from .sampling import Sampler
 RELATIVE_STEP = 1e-3
 """Of numerical derivatives of closed expressions in float64: they are exact to 1e-11."""
 
-PURE = 1e-9
+PURE = 1e-8
 """Largest share of a source that is not the scaling mode's, where it is the mode up to rounding."""
 
 
@@ -175,18 +175,18 @@ class Generator:
         n = self.count
         matrix, right = self.operator.copy(), -self.rates(path)
         first = self.squares[0]
+        size = np.sqrt(self.trace(self.moments) / self.scene.gas.dimension)
+        scale = size ** self.degrees[:n]
         if self.mode and not self.sampler.held:
-            image = matrix[:, first]
-            share = np.dot(image, right) / np.dot(image, image)
-            if np.max(np.abs(right - share * image)) <= PURE * np.max(np.abs(right)):
+            image, asked = matrix[:, first] / scale, right / scale
+            share = np.dot(image, asked) / np.dot(image, image)
+            if np.max(np.abs(asked - share * image)) <= PURE * np.max(np.abs(asked)):
                 return self.change(path, share * np.eye(n)[first], pure=True)
         fixed = [first] if self.sampler.held else []
         fixed += [k for k in range(n) if self.degrees[k] == 1]  # momentum
         for row in fixed:
             of_trace = self.trace(self.covariance) if row == first else self.covariance[row]
             matrix[row], right[row] = of_trace, 0.0
-        size = np.sqrt(self.trace(self.moments) / self.scene.gas.dimension)
-        scale = size ** self.degrees[:n]
         rows = np.max(np.abs(matrix) / scale, axis=1)
         solved = np.linalg.solve(matrix / rows[:, None] / scale, right / rows)
         return self.change(path, solved / scale)

@@ -7,7 +7,7 @@ import numpy as np
 from ..scenarios.base import AbstractScene, weighted_means
 from ..scenarios.homogeneous import AbstractHomogeneous
 from ..stats import jackknife
-from .observed import slopes, state_of
+from .observed import reported_names, slopes, state_of
 from .response import Facts, Generator
 from .samples import Samples
 
@@ -70,7 +70,7 @@ def _all_slopes(scene, generator: Generator, paths: dict[str, str]) -> dict[str,
         slopes(scene, generator.sampler, path, state, generator.steady(path))
         for path in paths.values()
     ]
-    return {name: np.stack([one[name] for one in each]) for name in each[0]}
+    return {name: np.stack([one[name] for one in each]) for name in reported_names(scene)}
 
 
 def _in_blocks(means: dict[str, np.ndarray], weights: np.ndarray) -> dict[str, np.ndarray]:

@@ -9,7 +9,7 @@ import numpy as np
 from ..scenarios.base import AbstractScene
 from ..scenarios.homogeneous import AbstractHomogeneous
 from ..stats import jackknife
-from .observed import State, slopes, state_of
+from .observed import State, reported_names, slopes, state_of
 from .response import Change, Facts, Generator
 from .samples import Samples
 
@@ -63,7 +63,7 @@ def _along(scene, samples: Samples, averages: dict, times, degree: int, paths) -
         moments, cubed, source, _ = zip(*changes, strict=True)
         whole = Change(_stacked(moments), _stacked(cubed), _stacked(source))
         found.append(slopes(scene, samples.sampler, path, state, whole))
-    return {name: np.stack([one[name] for one in found]) for name in found[0]}
+    return {name: np.stack([one[name] for one in found]) for name in reported_names(scene)}
 
 
 def _stacked(values) -> np.ndarray:

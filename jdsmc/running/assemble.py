@@ -170,7 +170,7 @@ def _sensitivity(scene, labels: Labels, session: Session, settled) -> dict[str, 
         else []
     )
     if any(found):
-        columns = _each(found)
+        columns = _without_nothing(_each(found))
         last = "_left_out"
         values = {n: x for n, x in columns.items() if not n.endswith(last)}
         left_out = {n.removesuffix(last): x for n, x in columns.items() if n.endswith(last)}
@@ -187,12 +187,23 @@ def _sensitivity(scene, labels: Labels, session: Session, settled) -> dict[str, 
             )
             for p, one in enumerate(history.scenes)
         ]
-        columns = _each(series)
+        columns = _without_nothing(_each(series))
         time = {"time": columns.pop("time")}
         data = labels.dataset(columns, scene.reports, ("parameter", "sample"))
         data = data.merge(labels.dataset(time, CLOCKS, ("sample",))).assign_coords(names)
         groups["/sensitivity_series"] = data.set_coords("time")
     return groups
+
+
+def _without_nothing(columns: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The same without what is NaN everywhere, with its errors."""
+    there = {name for name, values in columns.items() if np.any(np.isfinite(values))}
+    endings = ("_error", "_truncation", "_left_out")
+    base = {
+        name: next((name.removesuffix(e) for e in endings if name.endswith(e)), name)
+        for name in columns
+    }
+    return {name: values for name, values in columns.items() if base[name] in there}
 
 
 def _each(points: list[dict | None]) -> dict[str, np.ndarray]:
