@@ -108,7 +108,7 @@ def test_what_cannot_be_had_is_absent(elastic):
 def test_sweep_and_series():
     """Every point has its own; a run of given length has derivatives at fixed time."""
     scene = UniformShear(InelasticHardSpheres([0.6, 0.8]), RATE)
-    options = SMALL | {"collisions": 40.0}
+    options = SMALL | {"collisions": 30.0}
     result = jdsmc.run(scene, sensitivity="restitution", **options)
     one = result.sensitivity["shear_stress"]["restitution"]
     assert np.shape(one.value) == (2,)
