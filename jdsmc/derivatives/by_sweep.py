@@ -24,10 +24,6 @@ from .numbers import chosen_paths
 
 POINTS, DEGREE, LOWER = 7, 4, 2
 
-RELATIVE_WIDTH = 0.4
-"""Half of the range of the points over the number itself, in the smooth variable: noise falls with
-it as 1/h, and what degree 4 leaves out grows as h⁴."""
-
 SHARE_OF_RANGE = 0.02
 """The least half, over half of the allowed range: for a number that is zero, say."""
 
@@ -36,16 +32,22 @@ INSIDE = 1e-3
 
 
 class Variable(NamedTuple):
-    """A number θ through a variable u in which averages are smooth: u(θ), θ(u), dθ/du."""
+    """A number θ through a variable u in which averages are smooth: u(θ), θ(u), dθ/du.
+
+    `width`: half of the range of the points over u itself. Noise falls with it as 1/h, and what
+    degree 4 leaves out grows as h⁴.
+    """
 
     of: Callable
     back: Callable
     slope: Callable
+    width: float
 
 
-PLAIN = Variable(lambda x: x, lambda u: u, lambda u: 1.0)
+PLAIN = Variable(lambda x: x, lambda u: u, lambda u: 1.0, 0.4)
 INELASTICITY = Variable(
-    lambda x: np.sqrt(1.0 - x**2), lambda u: np.sqrt(1.0 - u**2), lambda u: -u / np.sqrt(1.0 - u**2)
+    *(lambda x: np.sqrt(1.0 - x**2), lambda u: np.sqrt(1.0 - u**2)),
+    *(lambda u: -u / np.sqrt(1.0 - u**2), 0.2),
 )
 """u = √(1-α²): stresses and cumulants of a sheared gas go as u near the elastic limit."""
 
@@ -63,8 +65,8 @@ def sensitivity_by_sweep(
         scene: one point of any scene.
         wrt: names of physical numbers, or True for all that can be varied.
         widths: half of the range of values about the scene's own, by name, for some of them; for a
-            restitution in √(1-α²). By default 0.4 of the number, at least 0.02 of half of the
-            range that is allowed. Where a border is in the way, points lie on the other side.
+            restitution in √(1-α²). By default 0.4 of the number (0.2 of √(1-α²)), at least 0.02
+            of half of the allowed range. Where a border is in the way, points lie on its inner side.
         options: as of `jdsmc.run`, for every point.
     Returns: as `jdsmc.sensitivity`; `.result` is the run of the scene itself. Derivatives of a
         profile are at a fixed layer.
@@ -100,7 +102,7 @@ def planned(scene: AbstractScene, path: str, width: float | None = None):
     if width is None:
         spread = 0.5 * (ends[1] - ends[0])
         least = SHARE_OF_RANGE * spread if np.isfinite(spread) else 0.0
-        width = max(RELATIVE_WIDTH * abs(at), least)
+        width = max(variable.width * abs(at), least)
     if width == 0.0:
         raise ValueError(
             f"{name} = 0 does not say how far to vary it; give widths = {{{name!r}: ...}}."
