@@ -66,7 +66,7 @@ def sensitivity_by_sweep(
         wrt: names of physical numbers, or True for all that can be varied.
         widths: half of the range of values about the scene's own, by name, for some of them; for a
             restitution in √(1-α²). By default 0.4 of the number (0.2 of √(1-α²)), at least 0.02
-            of half of the allowed range. Where a border is in the way, points lie on its inner side.
+            of half of the allowed range. Where a border is in the way, points move inwards.
         options: as of `jdsmc.run`, for every point.
     Returns: as `jdsmc.sensitivity`; `.result` is the run of the scene itself. Derivatives of a
         profile are at a fixed layer.
