@@ -141,6 +141,7 @@ def test_numerics_have_no_derivative(name):
             assert bound not in changes or float(changes[bound]) == 0.0
 
 
+@pytest.mark.slow
 def test_shear_of_a_gas_without_collisions():
     """V_x = V_x(0) - a t V_y: its derivative is -t V_y."""
     record = Record(UniformShear(Collisionless(), 1.0), steps=4)
@@ -179,6 +180,7 @@ def test_force_without_collisions():
         np.testing.assert_allclose(change, expected, atol=2e-6)  # single precision
 
 
+@pytest.mark.slow
 def test_flight_and_walls_of_a_gas_without_collisions():
     """Gravity moves what hits no wall by -t²/2, and the cold wall emits energy ∝ T_-.
 
