@@ -1,6 +1,8 @@
-"""All Navier-Stokes coefficients of a granular gas by simulation, from one kick at a time.
+"""All Navier-Stokes coefficients of a granular gas by simulation: at zero field, or from kicks.
 
-A homogeneous cooling gas is displaced a little in velocity space, V -> V + ε G(V), and a flux is
+`linear_response` disturbs nothing: sampled pairs of a cooling gas give its linearised generator,
+of which the coefficients are a solution (`jdsmc.measure.linear_response`). `navier_stokes`: a
+homogeneous cooling gas is displaced a little in velocity space, V -> V + ε G(V), and a flux is
 followed while the disturbance dies: its time integral is the coefficient, for any inelasticity.
 Method and proofs: docs/impulse_response.md. Theory to compare with: `jdsmc.theory.transport`.
 """
@@ -10,7 +12,8 @@ import xarray as xr
 from . import check
 from .results.result import Result
 from .running.limits import Limits
-from .running.run import options_of, scenes_of, simulate
+from .running.run import options_of, run, scenes_of, simulate
+from .scenarios.cooling_response import CoolingResponse
 from .scenarios.navier_stokes import NavierStokes, duration_for, kick_for
 from .scenarios.options import STEPS_PER_RECORD
 
@@ -80,6 +83,22 @@ def navier_stokes(
             **{"n_realizations": n_realizations, "seed": seed, "progress": progress},
         )
     )
+
+
+def linear_response(gas, *, time_step: float = 0.1, **options) -> Result:
+    """All Navier-Stokes coefficients from pairs of a cooling gas, at zero field.
+
+    Arguments:
+        gas: one of three components without drag whose pair rate is proportional to the relative
+            speed, `InelasticHardSpheres(restitution)`; an array of restitutions is swept.
+        time_step: largest time step as a fraction of τ(T), in (0, 1].
+        options: as of `jdsmc.run`: by default until κ', κ and η are known to 0.5%.
+    Returns: `Result` with `conductivity` κ/κ0, `modified_conductivity` κ'/κ0,
+        `density_coefficient` nμ/(Tκ0) and `viscosity` η/η0, each with an error and, as
+        `conductivity_truncation` ..., the change that the last of four Sonine functions makes.
+    Raises TypeError for another gas, and what `jdsmc.run` raises.
+    """
+    return run(CoolingResponse(gas), time_step=time_step, **options)
 
 
 def with_lag_as_series(result: Result) -> Result:

@@ -1,6 +1,7 @@
 """Bounds on pair rates: never exceeded unnoticed, raised when they are, lowered slowly."""
 
 import jax.numpy as jnp
+from jax import lax
 
 from ..types import Scalar
 from .meet import Collisions
@@ -28,5 +29,9 @@ def next_majorant(reduced: Scalar, majorant: Scalar, tally: Collisions) -> Scala
 
 
 def next_bound(bound: Scalar, met: Scalar) -> Scalar:
-    """Raised above what was met in a step, or lowered a little of the way to it."""
+    """Raised above what was met in a step, or lowered a little of the way to it.
+
+    Derivatives do not see it: it is numerics.
+    """
+    bound, met = lax.stop_gradient((bound, met))
     return jnp.where(met > bound, RAISE * met, bound + RELAX * (met - bound))

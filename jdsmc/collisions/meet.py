@@ -10,7 +10,7 @@ from jax import lax
 
 from .. import random
 from ..gases.base import AbstractGas
-from ..gases.scatter import elastic_outgoing
+from ..gases.scatter import elastic_outgoing, root
 from ..types import Key, Particles, Scalar
 
 
@@ -83,7 +83,7 @@ def meet(
         lax.optimization_barrier(random.bits(key, shape, stream)), dtype
     )
     relative = tuple(a - b for a, b in zip(left, right, strict=True))
-    speed = jnp.sqrt(sum(g * g for g in relative))
+    speed = root(sum(g * g for g in relative))
     rate = gas.rate(speed)
     probability = rate * factor
     accepted = uniforms[2] < probability

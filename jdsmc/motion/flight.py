@@ -5,6 +5,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool
 
+from ..gases.scatter import root
 from ..random import Stream
 from ..types import Key, Positions, Scalar, Velocities
 from .walls import Walls
@@ -107,9 +108,9 @@ def time_to_floor(height: Positions, speed: Positions, gravity: Scalar) -> Posit
     """
     never = jnp.asarray(jnp.inf, height.dtype)
     discriminant = speed * speed + 2.0 * gravity * height
-    root = jnp.sqrt(jnp.maximum(discriminant, 0.0))
-    downwards = 2.0 * height / (jnp.maximum(-speed, 0.0) + root)
-    falling_back = (jnp.maximum(speed, 0.0) + root) / jnp.where(gravity > 0, gravity, 1.0)
+    root_of_it = root(jnp.maximum(discriminant, 0.0))
+    downwards = 2.0 * height / (jnp.maximum(-speed, 0.0) + root_of_it)
+    falling_back = (jnp.maximum(speed, 0.0) + root_of_it) / jnp.where(gravity > 0, gravity, 1.0)
     down = jnp.where((speed < 0) & (discriminant >= 0), downwards, never)
     return jnp.where((speed >= 0) & (gravity > 0), falling_back, down)
 

@@ -4,6 +4,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from ..gases import ElasticHardSpheres
+from ..gases.scatter import root
 from ..types import Layer, Profile, Scalar, Velocities
 from .cells import populations, totals
 
@@ -57,7 +58,7 @@ def friction(gas: ElasticHardSpheres, flow: LayerFlow) -> Profile:
     freedom = 3.0 * jnp.maximum(number - 1.0, 1.0)
     excess = (freedom + 1.0) ** 2 * (freedom - 0.5 + 0.125 / freedom) / freedom**3
     density = number / jnp.mean(number)
-    return 0.5 * gas.drag_coefficient() * density * jnp.sqrt(2.0 * flow.temperature / excess)
+    return 0.5 * gas.drag_coefficient() * density * root(2.0 * flow.temperature / excess)
 
 
 def slowing(rate: Profile, duration: Scalar) -> Profile:

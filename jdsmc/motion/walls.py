@@ -9,13 +9,16 @@ Speeds away from the wall are sampled as w u(x), w = √(2T/m) of the wall and x
 uniform p: the Maxwellian has u(x) = x, the other one a table of u at equal steps of x.
 """
 
+from functools import partial
+
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
 from .. import random
-from ..gases.scatter import sin_cos_turns
+from ..gases.scatter import root, sin_cos_turns
 from ..types import Key, Positions, Scalar
 
 LARGEST_X = 4.2
@@ -34,6 +37,13 @@ class Walls(eqx.Module):
 
     speed: Float[Array, "2"]
     table: Float[Array, "2 steps"] | None
+
+    @staticmethod
+    def of(kind: str, cold_temperature: Scalar, length: Scalar) -> "Walls":
+        """Walls of type I ("maxwell") or II ("bgk")."""
+        if kind == "bgk":
+            return Walls.bgk(cold_temperature, length)
+        return Walls.maxwell(cold_temperature)
 
     @staticmethod
     def maxwell(cold_temperature: Scalar) -> "Walls":
@@ -64,6 +74,22 @@ class Walls(eqx.Module):
         away = thermal * (x if self.table is None else interpolate(self.table, wall, x))
         tangential = thermal * radius
         return tangential * cosine, tangential * sine, jnp.where(at_top, -away, away)
+
+
+@partial(jax.custom_jvp, nondiff_argnums=(0,))
+def made_before(kind: str, cold_temperature: Scalar, length: Scalar, walls: Walls) -> Walls:
+    """The walls of these numbers that were made before; derivatives are those of making them now.
+
+    Tables take time to make: a run makes them once, and their derivatives only where asked for.
+    """
+    return walls
+
+
+@made_before.defjvp
+def _made_again(kind: str, primals, tangents):
+    numbers, walls = primals[:2], primals[2]
+    _, change = jax.jvp(partial(Walls.of, kind), numbers, tangents[:2])
+    return walls, change
 
 
 def interpolate(table: Float[Array, "2 steps"], wall: Array, x: Positions) -> Positions:
@@ -110,6 +136,6 @@ def speed_table(gradient: Scalar, cold: bool) -> Float[Array, " steps"]:
     pieces = 0.5 * (density[1:] + density[:-1])
     above = jnp.cumsum(pieces[::-1])[::-1]
     survival = jnp.append(above / above[0], 0.0)
-    x = jnp.sqrt(-jnp.log(jnp.maximum(survival, 1e-30)))
+    x = root(-jnp.log(jnp.maximum(survival, 1e-30)))
     at = jnp.asarray(np.linspace(0.0, LARGEST_X, TABLE + 1), gradient.dtype)
     return jnp.interp(at, x, speed).at[0].set(0.0)

@@ -24,7 +24,7 @@ from ..measure import conduction
 from ..measure.observable import Observable
 from ..motion.cells import populations, totals
 from ..motion.flight import Exchange, fly
-from ..motion.walls import Walls
+from ..motion.walls import Walls, made_before
 from ..types import Key, Profile, Scalar
 from ..units import INITIAL_TEMPERATURE
 from .approach import Approach, of_conduction
@@ -159,9 +159,7 @@ class FourierFlow(AbstractSlab):
 
     def walls(self) -> Walls:
         """The two walls."""
-        if self.wall == "bgk":
-            return Walls.bgk(self.cold_temperature, self.length)
-        return Walls.maxwell(self.cold_temperature)
+        return Walls.of(self.wall, self.cold_temperature, self.length)
 
     def advance(
         self, key: Key, state: WalledState, options: Options
@@ -172,7 +170,8 @@ class FourierFlow(AbstractSlab):
             return self.sample(random.fold_in(key, number), state, options)
 
         samples = jnp.arange(self.samples_per_record, dtype=jnp.uint32)
-        start = replace(state, exchange=Exchange.none(options.dtype))
+        walls = made_before(self.wall, self.cold_temperature, self.length, state.walls)
+        start = replace(state, walls=walls, exchange=Exchange.none(options.dtype))
         state, (moments, tally, elapsed) = lax.scan(one_sample, start, samples)
         moments = jax.tree.map(lambda x: jnp.mean(x, axis=0), moments)
         tally, elapsed = Collisions.over(tally), jnp.sum(elapsed)

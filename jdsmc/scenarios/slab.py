@@ -32,8 +32,11 @@ class SlabState(eqx.Module):
     crowding: Scalar
 
     def longest_step(self) -> Scalar:
-        """The step in which no pair met lately collides with more than the allowed probability."""
-        return LARGEST_PROBABILITY / self.crowding
+        """The step in which no pair met lately collides with more than the allowed probability.
+
+        Derivatives do not see it: it is numerics.
+        """
+        return LARGEST_PROBABILITY / lax.stop_gradient(self.crowding)
 
 
 def maxwellian_at(key: Key, temperature: Positions) -> Velocities:
@@ -80,7 +83,7 @@ class AbstractSlab(AbstractScene):
         wanted = self.wanted_step(moments, options)
 
         def one_step(state, count):
-            duration = jnp.minimum(wanted, lax.stop_gradient(state.longest_step()))
+            duration = jnp.minimum(wanted, state.longest_step())
             state, tally = self.step(random.fold_in(key, count), state, duration, options)
             return state, (tally, duration)
 

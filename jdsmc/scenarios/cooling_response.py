@@ -1,0 +1,135 @@
+"""Navier-Stokes coefficients of a cooling gas at zero field: nothing is disturbed, pairs tell.
+
+The gas cools freely within a record and is scaled back to T0 at its start; pairs of the sample give
+its linearised generator, `jdsmc.measure.linear_response`.
+"""
+
+from typing import ClassVar
+
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+
+from .. import random
+from ..collisions.meet import Collisions
+from ..fields import derived
+from ..gases import AbstractGas
+from ..gases.scatter import elastic_outgoing
+from ..measure.linear_response import ORDER, Generator, coefficients, generator
+from ..measure.moments import moments
+from ..measure.observable import Observable
+from ..measure.responses import OBSERVABLES
+from ..motion.drive import held_at
+from ..types import Key, Scalar, Velocity
+from ..units import INITIAL_TEMPERATURE
+from .approach import VELOCITIES, Approach
+from .homogeneous import AbstractHomogeneous, HomogeneousRecord, HomogeneousState
+from .options import Options
+from .pace import make_steps
+from .scaled import check_without_drag, scaling_exponent
+
+NAMES = ("modified_conductivity", "conductivity", "density_coefficient", "viscosity")
+COEFFICIENTS = tuple(next(one for one in OBSERVABLES if one.name == name) for name in NAMES)
+TRUNCATIONS = tuple(
+    Observable(f"{one.name}_truncation", f"change of {one.meaning} with the last function")
+    for one in COEFFICIENTS
+)
+AFTER_STEPS = 0xFFFF_FFFF
+"""Folded into the key of a record: no step of it has this number."""
+
+
+class ResponseRecord(HomogeneousRecord):
+    """A record of the gas held at T0, and what its pairs tell."""
+
+    generator: Generator
+
+
+class CoolingResponse(AbstractHomogeneous):
+    """A cooling gas whose pairs give all Navier-Stokes coefficients at zero field.
+
+    Arguments: `gas`, one of three components without drag whose pair rate is proportional to the
+    relative speed. TypeError otherwise.
+    """
+
+    reports: ClassVar[tuple[Observable, ...]] = (*COEFFICIENTS, *TRUNCATIONS)
+    sampled: ClassVar[tuple[Observable, ...]] = ()
+    monitored: ClassVar[tuple[str, ...]] = ("fourth", "sixth")
+    ends: ClassVar[tuple[str, ...]] = ("modified_conductivity", "conductivity", "viscosity")
+    default_rtol: ClassVar[float] = 5e-3
+
+    gas: AbstractGas
+    exponent: float | None = derived()
+
+    def __init__(self, gas: AbstractGas):
+        self.gas, self.exponent = gas, scaling_exponent(gas)
+
+    def __check_init__(self):
+        check_without_drag(self.gas, "CoolingResponse")
+        if self.exponent != 1.0:
+            raise TypeError(
+                "CoolingResponse needs a gas that collides at a rate proportional to the relative "
+                "speed and has no speed of its own, as hard spheres."
+            )
+
+    def approach(self, options: Options) -> Approach:
+        """A few collisions per particle."""
+        return VELOCITIES
+
+    def step(
+        self, key: Key, velocity: Velocity, majorant: Scalar, duration: Scalar, options: Options
+    ) -> tuple[Velocity, Collisions]:
+        """Collisions, and nothing else."""
+        return self.collide(key, velocity, majorant, duration, options)
+
+    def advance(self, key: Key, state: HomogeneousState, options: Options):
+        """One record: scale to T0, sample particles and pairs, then make the steps."""
+        velocity, _ = held_at(state.velocity, INITIAL_TEMPERATURE)
+        sampled, pairs = moments(velocity), self.pairs(random.fold_in(key, AFTER_STEPS), velocity)
+
+        def step(key, velocity, majorant, duration):
+            velocity, tally = self.step(key, velocity, majorant, duration, options)
+            return velocity, tally, None
+
+        velocity, majorant, tally, elapsed, _ = make_steps(
+            *(step, key, velocity, state.majorant),
+            *(sampled.temperature(), self.rate(), options),
+        )
+        whole = jnp.zeros_like(elapsed), jnp.ones(2, elapsed.dtype)
+        record = ResponseRecord(sampled, tally, elapsed, *whole, pairs)
+        return HomogeneousState(velocity, majorant), record
+
+    def finish_chunk(self, state: HomogeneousState) -> tuple[HomogeneousState, None]:
+        """Deal the particles into new rows."""
+        mixed, _ = super().finish_chunk(state)
+        return mixed, None
+
+    def pairs(self, key: Key, velocity: Velocity) -> Generator:
+        """Half of the rows with as many others, shifted; a direction each, and its opposite."""
+        rows, lanes = velocity[0].shape
+        order = random.permutation(key, rows, stream=random.Stream.ROWS)
+        shift = random.bits(key, (1,), stream=random.Stream.SHIFT)[0][0] % jnp.uint32(lanes)
+        half, count = rows // 2, rows * lanes
+        left = tuple(v[order[:half]] for v in velocity)
+        right = tuple(jnp.roll(v[order[half : 2 * half]], shift, axis=1) for v in velocity)
+        relative = tuple(a - b for a, b in zip(left, right, strict=True))
+        speed = jnp.sqrt(sum(g * g for g in relative))
+        words = random.bits(key, speed.shape, random.Stream.OWN)
+        first, second, _ = lax.optimization_barrier(random.three_uniforms(words, speed.dtype))
+        one = elastic_outgoing(relative, speed, first, second)
+        both = (one, tuple(-e for e in one))
+        transfers = tuple(self.gas.momentum_transfer(relative, outgoing) for outgoing in both)
+        rate = self.gas.rate(speed) * ((count - 1) / count / (2.0 * 2.0**0.5))
+        return generator(velocity, left, right, rate, transfers)
+
+    def averages(self, record: ResponseRecord) -> dict[str, np.ndarray]:
+        """What every homogeneous gas has, and the sums over pairs."""
+        sums = {name: np.asarray(x) for name, x in vars(record.generator).items()}
+        averages = super().averages(record) | sums
+        del averages["local_rate"], averages["local_loss"], averages["instant_rate"]
+        return averages
+
+    def observables(self, means: dict) -> dict:
+        """Coefficients, and how much the last function changes each."""
+        found, fewer = coefficients(means), coefficients(means, ORDER - 1)
+        change = {f"{n}_truncation": np.abs(x - fewer[n]) for n, x in found.items()}
+        return found | change
