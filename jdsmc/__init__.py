@@ -1,6 +1,7 @@
 """Direct simulation Monte Carlo of granular and molecular gases."""
 
 from . import random, scenarios, theory, transport
+from .derivatives.sensitivity import sensitivity
 from .errors import FaultError, NotSteadyError
 from .estimate import Estimate, combine
 from .fields import choice, count, number
@@ -12,11 +13,12 @@ from .gases import (
     MaxwellMolecules,
 )
 from .measure.observable import Observable
-from .results import Result, load
+from .results import Derivative, Result, Sensitivity, load
 from .running.run import resume, run
 
 __all__ = [
     "AbstractGas",
+    "Derivative",
     "ElasticHardSpheres",
     "Estimate",
     "FaultError",
@@ -26,6 +28,7 @@ __all__ = [
     "NotSteadyError",
     "Observable",
     "Result",
+    "Sensitivity",
     "choice",
     "combine",
     "count",
@@ -35,6 +38,7 @@ __all__ = [
     "resume",
     "run",
     "scenarios",
+    "sensitivity",
     "theory",
     "transport",
 ]

@@ -28,7 +28,12 @@ def numbers(scene) -> dict[str, np.ndarray]:
 
 def _leaves(scene) -> list[tuple[str, Any]]:
     found = jax.tree_util.tree_flatten_with_path(eqx.filter(scene, is_number))[0]
-    return [(".".join(_step(key) for key in path), leaf) for path, leaf in found]
+    return [(path_of(path), leaf) for path, leaf in found]
+
+
+def path_of(keys) -> str:
+    """The path of a leaf as a string, from the keys that JAX gives."""
+    return ".".join(_step(key) for key in keys)
 
 
 def _step(key) -> str:
@@ -90,7 +95,7 @@ def points(scene) -> tuple[list, tuple[int, ...]]:
 
     def at(index):
         def pick(path, leaf):
-            name = ".".join(_step(key) for key in path)
+            name = path_of(path)
             value = np.asarray(leaf, dtype=float)
             return value[index[order.index(name)]] if name in swept else value[()]
 

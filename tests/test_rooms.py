@@ -19,7 +19,7 @@ ORDER = (
     {"scenarios"},
     {"views"},  # what draws a result is handed one, and knows nothing of its class
     {"results"},
-    {"running"},
+    {"running", "derivatives"},  # a run samples for derivatives, and derivatives are runs
     {"transport", "fit", "cli", "__main__"},
     {""},  # the front door, jdsmc itself
 )

@@ -2,5 +2,6 @@
 
 from .join import join_gases
 from .result import Result, load
+from .sensitivity import Derivative, Sensitivity
 
-__all__ = ["Result", "join_gases", "load"]
+__all__ = ["Derivative", "Result", "Sensitivity", "join_gases", "load"]

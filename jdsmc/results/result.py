@@ -13,6 +13,7 @@ import xarray as xr
 
 from .. import views
 from ..estimate import Estimate
+from .sensitivity import Sensitivity
 
 
 class Result:
@@ -25,6 +26,7 @@ class Result:
 
     def __init__(self, tree: xr.DataTree):
         self._tree = tree
+        self._sensitivity: Sensitivity | None = None
         self.under_way: Any = None
         """The run that made it, for `jdsmc.resume`; None if it was loaded, joined or cut."""
 
@@ -89,6 +91,17 @@ class Result:
             why = "the run ended before it was steady" if not self.is_steady else "none was sampled"
             raise KeyError(f"no velocity distributions: {why}.")
         return self._tree["distribution"].to_dataset()
+
+    @property
+    def sensitivity(self) -> Sensitivity:
+        """Derivatives with respect to physical numbers; KeyError if none were asked for."""
+        if "sensitivity" not in self._tree.children:
+            raise KeyError(
+                "no derivatives: run with sensitivity=True (or names), or call jdsmc.sensitivity."
+            )
+        if self._sensitivity is None:
+            self._sensitivity = Sensitivity(self)
+        return self._sensitivity
 
     def at(self, **point) -> "Result":
         """The result at one value of swept numbers, e.g. `result.at(restitution=0.7)`.

@@ -4,6 +4,7 @@ import numpy as np
 import xarray as xr
 
 from .. import sweep
+from ..derivatives.steady import steady_derivatives
 from ..measure.observable import CLOCKS, COLLISION_RATIO, COLLISIONS, TIME, Observable
 from ..results.result import Result
 from ..scenarios.base import AbstractScene
@@ -43,9 +44,11 @@ class Labels:
         data = xr.Dataset(coords=self.coords)
         known = {one.name: one for one in observables}
         for name, values in columns.items():
-            one = known.get(name.removesuffix("_error"), Observable(name, name))
+            plain = name.removesuffix("_error").removesuffix("_truncation")
+            one = known.get(plain, Observable(name, name))
             wrong = name != one.name
-            long = f"standard error of {one.meaning}" if wrong else one.meaning
+            kind = "standard error" if name.endswith("_error") else "truncation"
+            long = f"{kind} of {one.meaning}" if wrong else one.meaning
             attributes = {"long_name": long, "units": one.unit}
             if one.symbol and not wrong:
                 attributes["symbol"] = one.symbol
@@ -95,6 +98,8 @@ def assemble(scene: AbstractScene, session: Session, can_be_steady: bool, attrs:
         steady, attrs = _steady(scene, labels, session, settled, attrs)
         root = steady.pop("/")
         groups |= steady
+    if session.samples is not None:
+        groups |= _sensitivity(scene, labels, session, settled)
     root.attrs = provenance(scene, options) | attrs
     root.attrs["swept"] = " ".join(labels.dims)
     root.attrs["n_records"] = history.length
@@ -143,6 +148,38 @@ def _steady(scene, labels, session, settled, attrs: dict) -> tuple[dict, dict]:
     ]
     remarks += ["Points that are not steady yet have NaN."] if not np.all(settled) else []
     return groups, attrs | {"remarks": " ".join(sorted(set(remarks) - {""}))}
+
+
+def _sensitivity(scene, labels: Labels, session: Session, settled) -> dict[str, xr.Dataset]:
+    """Derivatives of steady values, and of what changes with time."""
+    history, samples, request = session.history, session.samples, session.request
+    assert samples is not None and request is not None
+    names = {"parameter": list(request.paths)}
+    groups = {"/sensitivity": xr.Dataset(coords=labels.coords | names)}
+    found = (
+        [
+            steady_derivatives(
+                one, samples, p, int(session.tracker.start[p]), request.paths, request.facts
+            )
+            if settled[p]
+            else None
+            for p, one in enumerate(history.scenes)
+        ]
+        if np.any(settled)
+        else []
+    )
+    if any(found):
+        columns = _each(found)
+        last = "_left_out"
+        values = {n: x for n, x in columns.items() if not n.endswith(last)}
+        left_out = {n.removesuffix(last): x for n, x in columns.items() if n.endswith(last)}
+        along = ("realization", "parameter")
+        for group, data, extra in (
+            ("/sensitivity", values, along[1:]),
+            ("/sensitivity_left_out", left_out, along),
+        ):
+            groups[group] = labels.dataset(data, scene.reports, extra).assign_coords(names)
+    return groups
 
 
 def _each(points: list[dict | None]) -> dict[str, np.ndarray]:

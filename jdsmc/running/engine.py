@@ -16,6 +16,7 @@ import numpy as np
 from jax import lax
 
 from .. import random, sweep
+from ..derivatives.sampling import Sampler
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
 from .batch import cores, gathered
@@ -32,14 +33,21 @@ class Engine:
     """A batch of gases under way. `advance` makes one chunk and returns its records as float64.
 
     Arguments: the scene of each point, the number of realizations of each, the seed of the run,
-    the options.
+    the options; what is sampled for derivatives, if anything: `watched` then has the averages of
+    the last chunk.
     """
 
     def __init__(
-        self, scenes: list[AbstractScene], n_realizations: int, seed: int, options: Options
+        self,
+        scenes: list[AbstractScene],
+        n_realizations: int,
+        seed: int,
+        options: Options,
+        sampler: Sampler | None = None,
     ):
         self.shape = (len(scenes), n_realizations)
-        self.options = options
+        self.options, self.sampler = options, sampler
+        self.watched: Any = None
         self.chunks = 0
         batch = [scene for scene in scenes for _ in range(n_realizations)]
         keys = [key for scene in scenes for key in gas_keys(scene, n_realizations, seed)]
@@ -59,14 +67,16 @@ class Engine:
 
         def work(number: int):
             state, output = _advance(
-                self._scenes[number], self._keys[number], self.states[number], first, self.options
+                *(self._scenes[number], self._keys[number], self.states[number]),
+                *(first, self.options, self.sampler),
             )
             return state, jax.tree.map(lambda x: np.asarray(x, dtype=float), output)
 
         done = self._share(work)
         self.states = [state for state, _ in done]
         self.chunks += 1
-        return gathered([output for _, output in done], self.shape)
+        record, sample, self.watched = gathered([output for _, output in done], self.shape)
+        return record, sample
 
     def take(self, states: list, chunks: int) -> None:
         """Go on from these states of the groups, after so many chunks."""
@@ -88,18 +98,26 @@ def _start(scene, keys, options: Options):
 
 
 @eqx.filter_jit
-def _advance(scene, keys, states, first_record, options: Options):
+def _advance(scene, keys, states, first_record, options: Options, sampler: Sampler | None):
     """One chunk for every gas: records are (gases, records, ...), samples (gases, ...)."""
 
     def one_gas(scene, key, state):
         key = random.fold_in(key, 1)
+        reference = None if sampler is None else sampler.reference(state.velocity)
 
         def one_record(state, count):
-            return scene.advance(random.fold_in(key, first_record + count), state, options)
+            own = random.fold_in(key, first_record + count)
+            sums = None
+            if sampler is not None:
+                sums = sampler.sample(own, scene.gas, state.velocity, reference)
+            state, record = scene.advance(own, state, options)
+            return state, (record, sums)
 
-        state, records = lax.scan(one_record, state, jnp.arange(options.records, dtype=jnp.uint32))
+        counts = jnp.arange(options.records, dtype=jnp.uint32)
+        state, (records, sums) = lax.scan(one_record, state, counts)
+        watched = jax.tree.map(lambda x: jnp.mean(x, axis=0), sums)
         state, sample = scene.finish_chunk(state)
-        return state, (records, sample)
+        return state, (records, sample, watched)
 
     return _each(one_gas, scene, keys, states)
 

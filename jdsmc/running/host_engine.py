@@ -25,6 +25,7 @@ class HostEngine:
         self.shape = (len(scenes), n_realizations)
         self.options = options
         self.chunks = 0
+        self.watched: Any = None
         self._scenes = [scene for scene in scenes for _ in range(n_realizations)]
         self._keys = [
             (seed, *sweep.fingerprint(scene), r) for scene in scenes for r in range(n_realizations)

@@ -5,6 +5,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from .. import check, sweep
+from ..derivatives.request import Request, requested
 from ..errors import FaultError, NotSteadyError
 from ..results.result import Result
 from ..scenarios.base import AbstractScene
@@ -35,6 +36,7 @@ def run(
     dtype: Literal["float32", "float64"] | type | np.dtype = "float32",
     steps_per_record: Whole | None = None,
     progress: bool = True,
+    sensitivity: bool | str | tuple[str, ...] = False,
 ) -> Result:
     """Simulate a scene and return labelled results with error bars.
 
@@ -63,6 +65,8 @@ def run(
         dtype: "float32", or "float64" with JAX's x64 mode enabled.
         steps_per_record: time steps between two measurements, 16 for most scenes.
         progress: show a progress bar.
+        sensitivity: names of numbers of gas and scene, or True for all: `result.sensitivity` then
+            has the derivatives of what is reported with respect to them (homogeneous gases).
     Raises:
         ValueError, TypeError: bad input, before anything is computed.
         NotSteadyError: no steady state within the budget; before the run, with `.result` None, if
@@ -72,6 +76,7 @@ def run(
     Ctrl-C ends the run after the present chunk and returns what was measured.
     """
     scenes = scenes_of(scene)
+    request = None if sensitivity is False else requested(scene, scenes, sensitivity)
     options = options_of(scenes, n_particles, time_step, splitting, dtype, steps_per_record)
     scenes = [one.prepared() for one in scenes]
     limits = Limits(
@@ -84,7 +89,11 @@ def run(
         budget=budget,
     )
     return simulate(
-        scene, scenes, options, limits, n_realizations=n_realizations, seed=seed, progress=progress
+        *(scene, scenes, options, limits),
+        n_realizations=n_realizations,
+        seed=seed,
+        progress=progress,
+        request=request,
     )
 
 
@@ -128,12 +137,13 @@ def simulate(
     n_realizations: Whole,
     seed: Whole,
     progress: bool,
+    request: Request | None = None,
 ) -> Result:
     """Advance until a limit is met, and assemble what was measured; see `run`."""
     n_realizations = check.whole("n_realizations", n_realizations, LEAST_REALIZATIONS)
     seed = check.whole("seed", seed, 0)
     limits.check_warm_up()
-    session = Session(scenes, n_realizations, seed, options, limits)
+    session = Session(scenes, n_realizations, seed, options, limits, request)
     return go_on(scene, session, {"seed": seed, "n_realizations": n_realizations}, progress)
 
 

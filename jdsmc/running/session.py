@@ -3,6 +3,8 @@
 import jax
 import numpy as np
 
+from ..derivatives.request import Request
+from ..derivatives.samples import Samples
 from ..errors import FaultError
 from ..scenarios.options import Options
 from . import faults
@@ -17,13 +19,27 @@ from .steady import tracker_for
 class Session:
     """What a run has come to. `advance` makes one chunk, `ending` says why to stop.
 
-    Arguments: the scene of each point, realizations of each, seed, options, limits.
+    Arguments: the scene of each point, realizations of each, seed, options, limits; what to take
+    derivatives to, if anything.
     """
 
-    def __init__(self, scenes, n_realizations: int, seed: int, options: Options, limits: Limits):
-        kind = Engine if scenes[0].traced else HostEngine
-        self.options, self.limits = options, limits
-        self.engine = kind(scenes, n_realizations, seed, options)
+    def __init__(
+        self,
+        scenes,
+        n_realizations: int,
+        seed: int,
+        options: Options,
+        limits: Limits,
+        request: Request | None = None,
+    ):
+        self.options, self.limits, self.request = options, limits, request
+        sampler = None if request is None else request.sampler
+        self.samples = None if sampler is None else Samples(sampler)
+        self.engine = (
+            Engine(scenes, n_realizations, seed, options, sampler)
+            if scenes[0].traced
+            else HostEngine(scenes, n_realizations, seed, options)
+        )
         self.history = History(scenes, options.n_particles, options.steps)
         drift = None if scenes[0].correlated else steady_changes
         self.correlated = scenes[0].correlated
@@ -44,6 +60,7 @@ class Session:
             "chunks": self.engine.chunks,
             "history": self.history.state(),
             "tracker": self.tracker.state(),
+            "samples": None if self.samples is None else self.samples.state(),
             "next_look": self._next_look,
             "next_check": self._next_check,
         }
@@ -53,6 +70,8 @@ class Session:
         self.engine.take(state["engine"], int(state["chunks"]))
         self.history.take(state["history"])
         self.tracker.take(state["tracker"])
+        if self.samples is not None:
+            self.samples.take(state["samples"])
         self._next_look, self._next_check = float(state["next_look"]), float(state["next_check"])
         self._asked_at = -1
 
@@ -67,6 +86,9 @@ class Session:
         """One chunk, its faults checked, and the steady state looked for."""
         record, sample = self.engine.advance()
         faults.check_record(self.history, record)
+        if self.samples is not None:
+            elapsed = np.sum(record.elapsed, axis=2)
+            self.samples.append(self.engine.watched, elapsed, self.history.length)
         self.history.append(record, sample)
         faults.check_collisions(self.history, record)
         if self.history.length >= self._next_check:

@@ -28,6 +28,7 @@ from ..measure.heat import (
 from ..measure.moments import BIN_WIDTH
 from ..measure.observable import Observable
 from ..measure.observables import REDUCED
+from ..measure.polynomials import AXIAL, Averages, Powers, Symmetry
 from ..motion.drive import centred, held_at, temperature_of
 from ..types import Key, Scalar, Velocity
 from ..units import INITIAL_TEMPERATURE
@@ -71,6 +72,7 @@ class HeatFluxForce(AbstractHomogeneous):
     command: ClassVar[str] = "heat-flux"
     reports: ClassVar[tuple[Observable, ...]] = (*RESPONSES, *REDUCED)
     sampled: ClassVar[tuple[Observable, ...]] = DISTRIBUTIONS[:1]
+    symmetry: ClassVar[Symmetry | None] = AXIAL
     monitored: ClassVar[tuple[str, ...]] = ("fourth", "flux3", "flux5")
 
     gas: AbstractGas
@@ -94,6 +96,16 @@ class HeatFluxForce(AbstractHomogeneous):
                 "speed and has no speed of its own, as hard spheres: collisions and force then "
                 f"scale alike, and the gas can be held at T0; {type(self.gas).__name__} does not."
             )
+
+    def moment_drift(self, powers: Powers, mean: Averages) -> Any:
+        """-½ V (V·ε), and the mean velocity subtracted."""
+        i, j = powers
+        forced = -AXIAL.degree(powers) * mean[i + 1, j] + i * mean[2, 0] * mean[i - 1, j]
+        return 0.5 * self.field * forced
+
+    def holds_temperature(self) -> bool:
+        """True: each record starts at T0."""
+        return True
 
     def has_steady_state(self) -> bool:
         """True if there is a heat flux to be measured."""

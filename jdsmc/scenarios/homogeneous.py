@@ -22,6 +22,7 @@ from ..measure.observables import (
     isotropic,
     moment_averages,
 )
+from ..measure.polynomials import Averages, Powers, Symmetry
 from ..motion.drive import centred, mean, temperature_of
 from ..types import Key, Scalar, Velocity
 from ..units import INITIAL_TEMPERATURE
@@ -85,6 +86,8 @@ class AbstractHomogeneous(AbstractScene):
     """
 
     sampled: ClassVar[tuple[Observable, ...]] = DISTRIBUTIONS
+    symmetry: ClassVar[Symmetry | None] = None
+    """That of the distribution, for derivatives; `moment_drift` goes with it."""
 
     @abstractmethod
     def step(
@@ -128,6 +131,18 @@ class AbstractHomogeneous(AbstractScene):
         """Sample the velocity distributions and deal the particles into new rows."""
         sample = distributions(state.velocity)
         return HomogeneousState(tuple(map(remix, state.velocity)), state.majorant), sample
+
+    def moment_drift(self, powers: Powers, mean: Averages) -> Any:
+        """d⟨φ⟩/dt of one polynomial by all but collisions, for derivatives.
+
+        `mean[powers]` is such an average, `mean["cubed"]` is ⟨V12³⟩. On the host, in float64; a
+        number or an array (leading axes of any shape).
+        """
+        return 0.0
+
+    def holds_temperature(self) -> bool:
+        """True if each record starts at T0, in a unit of time that follows."""
+        return False
 
     def averages(self, record: HomogeneousRecord) -> dict[str, np.ndarray]:
         """Averages over the particles at each record."""

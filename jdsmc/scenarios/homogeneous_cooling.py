@@ -17,6 +17,7 @@ from ..gases import AbstractGas
 from ..measure.moments import Distributions, moments
 from ..measure.observable import Observable
 from ..measure.observables import REDUCED, TEMPERATURE
+from ..measure.polynomials import ISOTROPIC, Symmetry
 from ..motion.drive import centred, temperature_of
 from ..types import Key, Scalar, Velocity
 from ..units import INITIAL_TEMPERATURE
@@ -58,6 +59,7 @@ class HomogeneousCooling(AbstractHomogeneous):
         Observable("log_temperature", "ln T/T0", symbol="ln T/T0"),
         Observable("reduced_time", "reduced time ∫ dt τ0/τ(T)", "τ0", symbol="reduced time"),
     )
+    symmetry: ClassVar[Symmetry | None] = ISOTROPIC
     monitored: ClassVar[tuple[str, ...]] = ("fourth", "sixth", "cubed")
 
     gas: AbstractGas
@@ -77,6 +79,10 @@ class HomogeneousCooling(AbstractHomogeneous):
 
     def has_steady_state(self) -> bool:
         """True if the reduced distribution becomes steady: for a gas without a speed of its own."""
+        return self.exponent is not None
+
+    def holds_temperature(self) -> bool:
+        """True if the gas is scaled back to T0."""
         return self.exponent is not None
 
     def no_steady_state(self) -> str:

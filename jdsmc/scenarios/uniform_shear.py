@@ -7,6 +7,7 @@ peculiar velocities are kept, and convection is the inertial force -m a V_y x̂ 
 from typing import Any, ClassVar
 
 import jax.numpy as jnp
+import numpy as np
 
 from ..collisions.meet import Collisions
 from ..fields import number
@@ -15,6 +16,7 @@ from ..gases.hard_spheres import loses_energy
 from ..measure.moments import pair_cubed
 from ..measure.observable import Observable
 from ..measure.observables import PRESSURES, REDUCED, RHEOLOGY, TEMPERATURE, rheology
+from ..measure.polynomials import SHEARED, Averages, Powers, Symmetry
 from ..motion.drive import shear, sheared_drag, temperature_of
 from ..types import Key, Scalar, Velocity
 from ..units import MAXWELL_CUBED
@@ -41,6 +43,7 @@ class UniformShear(AbstractHomogeneous):
         *(*PRESSURES, *REDUCED),
     )
     applies_drag: ClassVar[bool] = True
+    symmetry: ClassVar[Symmetry | None] = SHEARED
     monitored: ClassVar[tuple[str, ...]] = ("temperature", "xy", "xx", "fourth")
 
     gas: AbstractGas
@@ -74,6 +77,18 @@ class UniformShear(AbstractHomogeneous):
     def rate(self) -> Any:
         """The shear rate."""
         return self.shear_rate
+
+    def moment_drift(self, powers: Powers, mean: Averages) -> Any:
+        """Shear turns v_x into v_y; the drag takes (c/2) √(2T) of each power of the velocity."""
+        i, j, k = powers
+        shear = -self.shear_rate * i * mean[i - 1, j + 1, k]
+        if not isinstance(self.gas, ElasticHardSpheres):
+            return shear
+        heat = (mean[2, 0, 0] + mean[0, 2, 0] + mean[0, 0, 1]) / 3.0
+        loss = 0.5 * self.gas.drag_coefficient() * np.sqrt(2.0 * heat)
+        if self.gas.drag == "measured":
+            loss = loss * mean["cubed"] / (MAXWELL_CUBED * heat**1.5)
+        return shear - loss * SHEARED.degree(powers) * mean[powers]
 
     def has_steady_state(self) -> bool:
         """True if heating and cooling can balance: a > 0, and a gas that loses energy."""

@@ -11,6 +11,7 @@ from . import (
     heat_flux_force,
     homogeneous_cooling,
     navier_stokes,
+    sensitivity,
     sheared_slab,
     uniform_shear,
 )
@@ -54,3 +55,18 @@ def html(result) -> str:
 def draw(result):
     """The matplotlib figure of a result; it belongs to no window and needs no closing."""
     return _view(result).draw(result)
+
+
+def sensitivity_table(found) -> str:
+    """Derivatives with error and truncation."""
+    return as_text(sensitivity.page(found))
+
+
+def sensitivity_html(found) -> str:
+    """The same as HTML, for a notebook."""
+    return as_html(sensitivity.page(found))
+
+
+def draw_sensitivity(found):
+    """The matplotlib figure of derivatives."""
+    return sensitivity.draw(found)

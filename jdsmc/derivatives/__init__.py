@@ -1,0 +1,1 @@
+"""Derivatives of averages with respect to physical numbers, from the linearised generator."""

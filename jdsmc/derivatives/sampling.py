@@ -1,0 +1,155 @@
+"""What is sampled of a gas for its derivatives: sums over particles and pairs, on the device.
+
+Pairs of different particles are drawn from the present velocities and scattered in a random
+direction and its opposite. All velocities are divided by a thermal speed before powers are taken,
+so that float32 is enough; the host multiplies it back.
+"""
+
+from typing import Any, NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jax import lax
+
+from .. import random
+from ..gases import AbstractGas
+from ..gases.scatter import elastic_outgoing
+from ..measure.polynomials import Powers, Symmetry
+from ..motion.drive import centred, temperature_of
+from ..types import Key, Particles, Scalar, Velocity
+from .numbers import tangent
+
+AFTER_STEPS = 0xFFFF_FFFF
+"""Folded into the key of a record: no step of it has this number."""
+
+
+class Sampler(NamedTuple):
+    """What is sampled, static: polynomials to a degree, numbers of the gas by their path.
+
+    `held`: the gas is held at its temperature, in units of whose speed averages then are; else
+    they are absolute, and the thermal speed at the start of a chunk serves in between.
+    """
+
+    symmetry: Symmetry
+    degree: int
+    paths: tuple[str, ...]
+    held: bool
+
+    @property
+    def basis(self) -> list[Powers]:
+        """The trial functions."""
+        return self.symmetry.basis(self.degree)
+
+    @property
+    def rows(self) -> list[Powers]:
+        """What is averaged; begins with the trial functions."""
+        return self.symmetry.basis(max(self.degree, self.symmetry.rows))
+
+    def reference(self, velocity: Velocity) -> Scalar:
+        """√T at the start of a chunk."""
+        return jnp.sqrt(temperature_of(centred(velocity)))
+
+    def sample(self, key: Key, gas: AbstractGas, velocity: Velocity, reference: Scalar) -> dict:
+        """Sums at one instant, by name; units of the reference.
+
+        `moments` (rows,) ⟨φ_k⟩, `second` (rows, trial) ⟨φ_k φ_l⟩. Of pairs: `source`
+        (trial + 1,) the change of ⟨φ_k⟩ per time by collisions, and their number per particle;
+        `response` (trial + 1, trial) the same times φ_l(1) + φ_l(2); `cubed` ⟨V12³⟩ and
+        `cubed_response` (trial,); `tangents` (numbers, trial + 1) derivatives of `source`.
+        """
+        velocity = centred(velocity)
+        if self.held:
+            reference = jnp.sqrt(temperature_of(velocity))
+        velocity = tuple(v / reference for v in velocity)
+        count, trial = velocity[0].size, len(self.basis)
+        values = _matrix(self.symmetry.values(velocity, self.rows))
+        sums = {
+            "reference": reference,
+            "moments": _average(values),
+            "second": values @ values[:trial].T / count,
+        }
+        return sums | self._of_pairs(random.fold_in(key, AFTER_STEPS), gas, velocity, reference)
+
+    def _of_pairs(self, key: Key, gas, velocity: Velocity, reference) -> dict:
+        left, right = random_pairs(key, velocity)
+        relative = tuple(a - b for a, b in zip(left, right, strict=True))
+        speed = jnp.sqrt(sum(g * g for g in relative))
+        words = random.bits(key, speed.shape, random.Stream.OWN)
+        first, second, _ = lax.optimization_barrier(random.three_uniforms(words, speed.dtype))
+        outgoing = both_ways(relative, speed, first, second)
+        basis, n = self.basis, velocity[0].size
+        per_particle = (n - 1) / n / (2.0 * 2.0**0.5)
+        before = [
+            a + b
+            for a, b in zip(
+                self.symmetry.values(left, basis), self.symmetry.values(right, basis), strict=True
+            )
+        ]
+
+        def changes(gas):
+            """Rate times change of every φ_k, and the rate: (trial + 1, pairs)."""
+            rate = gas.rate(speed * reference) * jnp.ones_like(speed)
+            after = [jnp.zeros_like(speed) for _ in basis]
+            for one in outgoing:
+                transfer = gas.momentum_transfer(
+                    tuple(g * reference for g in relative), tuple(e * reference for e in one)
+                )
+                transfer = tuple(t / reference for t in transfer)
+                for side, sign in ((left, -1.0), (right, 1.0)):
+                    moved = tuple(v + sign * t for v, t in zip(side, transfer, strict=True))
+                    values = self.symmetry.values(moved, basis)
+                    after = [a + 0.5 * x for a, x in zip(after, values, strict=True)]
+            change = [rate * (a - b) for a, b in zip(after, before, strict=True)]
+            return _matrix([*change, rate]) * per_particle
+
+        rates, both = changes(gas), _matrix(before)
+        cubed = (speed * speed * speed).reshape(1, -1)
+        pairs = speed.size
+        return {
+            "source": _average(rates),
+            "response": rates @ both.T / pairs,
+            "cubed": _average(cubed)[0],
+            "cubed_response": (cubed @ both.T / pairs)[0],
+            "tangents": self._tangents(lambda gas: _average(changes(gas)), gas),
+        }
+
+    def _tangents(self, source, gas):
+        """Derivatives of the source with respect to each number of the gas."""
+        arrays, rest = eqx.partition(gas, eqx.is_array)
+        found = [
+            jax.jvp(lambda a: source(eqx.combine(a, rest)), (arrays,), (tangent(arrays, path),))[1]
+            for path in self.paths
+        ]
+        return jnp.stack(found) if found else jnp.zeros((0, len(self.basis) + 1))
+
+
+def random_pairs(key: Key, velocity: Velocity) -> tuple[Particles, Particles]:
+    """Half of the rows, and as many others shifted by a random number of lanes."""
+    rows, lanes = velocity[0].shape
+    order = random.permutation(key, rows, stream=random.Stream.ROWS)
+    shift = random.bits(key, (1,), stream=random.Stream.SHIFT)[0][0] % jnp.uint32(lanes)
+    half = rows // 2
+    left = tuple(v[order[:half]] for v in velocity)
+    right = tuple(jnp.roll(v[order[half : 2 * half]], shift, axis=1) for v in velocity)
+    return left, right
+
+
+def both_ways(relative: Particles, speed, first, second) -> tuple[Particles, Particles]:
+    """Two outgoing relative velocities of the right distribution: opposite ones for spheres.
+
+    For disks the impact parameters are opposite.
+    """
+    one = elastic_outgoing(relative, speed, first, second)
+    if len(relative) == 2:
+        return one, elastic_outgoing(relative, speed, 1.0 - first, second)
+    return one, tuple(-e for e in one)
+
+
+def _matrix(values: list) -> Any:
+    return jnp.stack([value.reshape(-1) for value in values])
+
+
+def _average(values):
+    """Along the last axis, in two stages for float32."""
+    return jnp.mean(values, axis=-1)

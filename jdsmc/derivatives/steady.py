@@ -1,0 +1,83 @@
+"""Steady derivatives with error and truncation, from the samples of a run."""
+
+from itertools import pairwise
+
+import numpy as np
+
+from ..scenarios.base import weighted_means
+from ..scenarios.homogeneous import AbstractHomogeneous
+from ..stats import jackknife
+from .observed import slopes, state_of
+from .response import Facts, Generator
+from .samples import Samples
+
+BLOCKS = 4
+"""Blocks of a measurement for the second estimate of its error, as of all that is printed."""
+
+LOWER = 2
+"""Degrees between the trial functions and those of the comparison that tells the truncation."""
+
+
+def steady_derivatives(
+    scene: AbstractHomogeneous,
+    samples: Samples,
+    point: int,
+    first: int,
+    paths: dict[str, str],
+    facts: Facts = Facts(),  # noqa: B008 (immutable)
+) -> dict[str, np.ndarray] | None:
+    """Derivatives of one point measured from record `first` on; None if nothing was sampled there.
+
+    Arguments: the scene of the point; numbers by short name. Returns, by name of the observable and
+    with `_error`, `_truncation` and `_left_out` behind it: arrays (numbers, ...) and, of the last,
+    (realizations, numbers, ...). The error is the larger one of realizations and of blocks.
+    """
+    if not samples.has(first):
+        return None
+    means, weights, _ = samples.point(point, first)
+    degree = samples.sampler.degree
+
+    def found(averages: dict, at: int) -> dict[str, np.ndarray]:
+        generator = Generator(scene, samples.sampler, averages, at, facts)
+        return _all_slopes(scene, generator, paths)
+
+    value, error, left_out = jackknife(
+        weighted_means(means, weights), lambda averages: found(averages, degree), axis=0
+    )
+    whole = {name: np.mean(x, axis=0) for name, x in weighted_means(means, weights).items()}
+    lower = found(whole, degree - LOWER)
+    larger = error
+    if weights.shape[1] >= BLOCKS:
+        blocks = _in_blocks(means, weights)
+        _, of_blocks, _ = jackknife(blocks, lambda averages: found(averages, degree), axis=0)
+        larger = {name: np.fmax(error[name], of_blocks[name]) for name in value}
+    columns = {}
+    for name in value:
+        with np.errstate(divide="ignore", invalid="ignore"):
+            factor = np.where(error[name] > 0, larger[name] / error[name], 1.0)
+        columns[name] = value[name]
+        columns[f"{name}_error"] = larger[name]
+        columns[f"{name}_truncation"] = np.abs(value[name] - lower[name])
+        middle = np.mean(left_out[name], axis=0)
+        columns[f"{name}_left_out"] = middle + factor * (left_out[name] - middle)
+    return columns
+
+
+def _all_slopes(scene, generator: Generator, paths: dict[str, str]) -> dict[str, np.ndarray]:
+    """Of every observable: arrays (numbers, ...)."""
+    state = state_of(generator)
+    each = [
+        slopes(scene, generator.sampler, path, state, generator.steady(path))
+        for path in paths.values()
+    ]
+    return {name: np.stack([one[name] for one in each]) for name in each[0]}
+
+
+def _in_blocks(means: dict[str, np.ndarray], weights: np.ndarray) -> dict[str, np.ndarray]:
+    """Averages over each of a few blocks of every realization: (realizations x blocks, ...)."""
+    edges = np.linspace(0, weights.shape[1], BLOCKS + 1).astype(int)
+    parts = [
+        weighted_means({n: x[:, a:b] for n, x in means.items()}, weights[:, a:b])
+        for a, b in pairwise(edges)
+    ]
+    return {name: np.concatenate([part[name] for part in parts]) for name in means}
