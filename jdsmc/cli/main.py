@@ -8,6 +8,7 @@ from ..errors import FaultError
 from ..results.result import load
 from . import catalogue
 from .arguments import Parser
+from .fit import fit
 from .keep import check_picture, draw, picture_of, show
 from .simulate import simulate
 from .spelling import never_fail_to_print
@@ -15,6 +16,7 @@ from .spelling import never_fail_to_print
 COMMANDS = {
     "run": ("SCENE [options]", "simulate one gas: steady values with error bars"),
     "sweep": ("SCENE [options]", "simulate every combination of the given numbers and gases"),
+    "fit": ("beta [options]", "the rate factor of an elastic gas that mimics an inelastic one"),
     "show": ("FILE", "print the table of a result file"),
     "plot": ("FILE [--out PICTURE]", "draw a result file"),
 }
@@ -64,6 +66,8 @@ def command(words: list[str]) -> int:
             names = ", ".join(catalogue.scenes())
             raise ValueError(f"`jdsmc {first}` needs a scene: {names}, or your own module:Class.")
         return simulate(first, rest[0], rest[1:])
+    if first == "fit":
+        return fit(rest)
     if first in ("show", "plot"):
         return shown(first, rest)
     near = catalogue.did_you_mean(first, COMMANDS)

@@ -59,7 +59,8 @@ def calibrate(
     fits = targets_of(target, weights)
     free = _free(free, target, fits)
     check_model(model, free)
-    scaled = scales(model, free) and not fits[0].of_series
+    elastic: Any = model if scales(model, free) and not fits[0].of_series else None
+    scaled = elastic is not None
     for fit in fits:
         check_free(free, fit)
         check_names(model, fit, scaled)
@@ -77,9 +78,9 @@ def calibrate(
         _wanted(reference, names[0], 1 if alpha is None else len(alpha))
     reference = run(reference, **options) if isinstance(reference, AbstractScene) else reference
     wanted = {name: _wanted(reference, name, 1 if alpha is None else len(alpha)) for name in names}
-    if scaled:
-        made = run(elastic_sweep(model, alpha), **options) if sweep is None else sweep
-        found = matches(alpha, fits, free, wanted, model, made)
+    if elastic is not None and alpha is not None:
+        made = run(elastic_sweep(elastic, alpha), **options) if sweep is None else sweep
+        found = matches(alpha, fits, free, wanted, elastic, made)
         how = f"the elastic gas: {made.attrs['stopped']}"
     else:
         ends = [newton(model, free, f, [wanted[n][0] for n in f.names], options) for f in fits]
