@@ -59,12 +59,12 @@ def calibrate(
     fits = targets_of(target, weights)
     free = _free(free, target, fits)
     check_model(model, free)
-    elastic: Any = model if scales(model, free) and not fits[0].of_series else None
-    scaled = elastic is not None
+    scaled = scales(model, free) and not fits[0].of_series
+    elastic: Any = model
     for fit in fits:
         check_free(free, fit)
         check_names(model, fit, scaled)
-    alpha = None if "restitution" in free else restitutions(reference, model)
+    alpha: Any = None if "restitution" in free else restitutions(reference, model)
     names = list(dict.fromkeys(name for fit in fits for name in fit.names))
     options = USUAL | options
     if fits[0].of_series:
@@ -74,12 +74,13 @@ def calibrate(
             f"only free numbers {' and '.join(FREE)} of a sheared elastic gas are fitted over a "
             "sweep; give one restitution."
         )
+    swept = elastic_sweep(elastic, alpha) if scaled else None
     if not isinstance(reference, AbstractScene):
         _wanted(reference, names[0], 1 if alpha is None else len(alpha))
     reference = run(reference, **options) if isinstance(reference, AbstractScene) else reference
     wanted = {name: _wanted(reference, name, 1 if alpha is None else len(alpha)) for name in names}
-    if elastic is not None and alpha is not None:
-        made = run(elastic_sweep(elastic, alpha), **options) if sweep is None else sweep
+    if swept is not None and alpha is not None:
+        made = run(swept, **options) if sweep is None else sweep
         found = matches(alpha, fits, free, wanted, elastic, made)
         how = f"the elastic gas: {made.attrs['stopped']}"
     else:

@@ -7,7 +7,8 @@ Divided by β the steady Boltzmann equation of Astillero and Santos, eq. (2.20),
 and nothing else besides a/β. Every reduced stress and cumulant is a function F(x), a* is β F(x), η*
 is F(x)/β. F is known to be √x (or x, or 1) times a power series in x for small x, as a shear of
 either sign is the same but for that of the stress; the kinetic model, whose z = ζ/ν is
-proportional to x, suggests a polynomial in u = z/(1+z) for what is left. It is fitted to one sweep.
+proportional to x, suggests a polynomial in u = z/(1+z) for what is left (its stresses and η* are
+of degree 0 to 2; a* is √x over one of degree 1). It is fitted to one sweep.
 """
 
 from typing import Any, NamedTuple
@@ -38,15 +39,16 @@ ALPHA = 0.5
 
 
 class Law(NamedTuple):
-    """O = β^degree x^power P(u)."""
+    """O = β^degree x^power P(u), or O = β^degree x^power / P(u) if `inverse`."""
 
     degree: int
     power: float
+    inverse: bool = False
 
 
 LAWS = {
     "shear_stress": Law(0, 0.5),
-    "reduced_shear_rate": Law(1, 0.5),
+    "reduced_shear_rate": Law(1, 0.5, inverse=True),
     "reduced_viscosity": Law(-1, 0.0),
     "normal_stress_xy": Law(0, 1.0),
     "normal_stress_zy": Law(0, 1.0),
@@ -120,17 +122,20 @@ class Curve:
         self.low, self.high = float(x[0]) / BEYOND, float(x[-1])
         found = result[name]
         values, errors = np.asarray(found.value), np.asarray(found.error)
-        scale = x**self.law.power
+        self._sign = -1 if self.law.inverse else 1
         u = stretched(x)
         self._middle, self._half = 0.5 * (u[0] + u[-1]), 0.5 * (u[-1] - u[0])
-        known = np.exp(np.polyval(np.polyfit(self._t(x), np.log(errors / scale), 1), self._t(x)))
+        fitted = (values / x**self.law.power) ** self._sign
+        known = errors / np.abs(values) * np.abs(fitted)
+        known = np.exp(np.polyval(np.polyfit(self._t(x), np.log(known), 1), self._t(x)))
         columns = self._columns(x)
-        self._hat = np.linalg.pinv(columns / known[:, None]) / known / scale
-        self._coefficients = self._hat @ values
-        left = (values / scale - columns @ self._coefficients) / known
-        self.misfit = float(np.sum(left**2) / (len(x) - columns.shape[1]))
+        self._hat = np.linalg.pinv(columns / known[:, None]) / known
+        self._coefficients = self._hat @ fitted
+        self.misfit = float(np.sum(((fitted - columns @ self._coefficients) / known) ** 2))
+        self.misfit /= len(x) - columns.shape[1]
         spread = max(1.0, np.sqrt(self.misfit))
-        self._nodes = [_spread(found[k], spread) for k in range(len(x))]
+        parts = [found[k] / x[k] ** self.law.power for k in range(len(x))]
+        self._nodes = [_spread(one**self._sign, spread) for one in parts]
 
     def _t(self, x) -> np.ndarray:
         return (stretched(x) - self._middle) / self._half
@@ -141,15 +146,15 @@ class Curve:
 
     def observable(self, beta, x) -> np.ndarray:
         """The observable at a rate factor and x, arrays of one shape."""
-        reduced = self._columns(x) @ self._coefficients
-        return (
-            np.asarray(beta, float) ** self.law.degree * np.asarray(x) ** self.law.power * reduced
-        )
+        return self._front(beta, x) * (self._columns(x) @ self._coefficients) ** self._sign
 
     def estimate(self, beta: float, x: float) -> Estimate:
         """The same at one point, with its error."""
-        row = beta**self.law.degree * x**self.law.power * (self._columns(x) @ self._hat)
-        return combine(lambda *values: row @ np.array(values), *self._nodes)
+        row, front = self._columns(x) @ self._hat, self._front(beta, x)
+        return combine(lambda *y: front * (row @ np.array(y)) ** self._sign, *self._nodes)
+
+    def _front(self, beta, x):
+        return np.asarray(beta, float) ** self.law.degree * np.asarray(x) ** self.law.power
 
 
 def _spread(one: Estimate, factor: float) -> Estimate:

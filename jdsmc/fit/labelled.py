@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -72,7 +72,7 @@ def labelled(
     data.attrs = attrs | {
         "scene": "Calibration",
         "gas_model": type(model.gas).__name__,
-        **{f"option_{n.removeprefix('gas.')}": str(x) for n, x in sweeps.statics(model).items()},
+        **{f"option_{name}": str(value) for name, value in _switches(model, free)},
         "model": json.dumps(specification(model)),
         "reference": _named(reference),
         "free": " ".join(free),
@@ -82,6 +82,12 @@ def labelled(
         "stopped": how,
     }
     return Result(xr.DataTree.from_dict({"/": data, "/series": xr.Dataset()}))
+
+
+def _switches(model: AbstractScene, free: tuple[str, ...]) -> list[tuple[str, Any]]:
+    """What of the model is no number, but for what was free."""
+    found = [(path.removeprefix("gas."), x) for path, x in sweeps.statics(model).items()]
+    return [(name, x) for name, x in found if name not in free]
 
 
 def _array(values: list[Estimate], part: int) -> np.ndarray:
