@@ -1,0 +1,38 @@
+"""Navier-Stokes coefficients of the elastic gas under a drag."""
+
+import numpy as np
+import pytest
+
+from jdsmc.theory import sonine_elastic
+from jdsmc.theory.frictional import coefficients
+
+
+def test_without_drag():
+    """Those of elastic spheres."""
+    found = coefficients(0.0)
+    assert found["conductivity"] == pytest.approx(sonine_elastic.conductivity_ratio(10), rel=1e-6)
+    assert found["viscosity"] == pytest.approx(sonine_elastic.viscosity_ratio(10), rel=1e-6)
+    assert abs(found["density_coefficient"]) < 1e-9
+
+
+@pytest.mark.parametrize("x", [0.1, 0.7, 1.5])
+def test_identities(x):
+    """κ' does not know the drag; μ from its own equation is 2 (κ - κ'): eq. (2.38)."""
+    found = coefficients(x)
+    assert found["modified_conductivity"] == pytest.approx(coefficients(0.0)["conductivity"])
+    twice = 2 * (found["conductivity"] - found["modified_conductivity"])
+    assert found["density_coefficient"] == pytest.approx(twice, rel=1e-6)
+
+
+@pytest.mark.parametrize("x", [0.05, 0.5, 1.0])
+def test_first_sonine(x):
+    """1/(1 + ζ/2ν_η) and 1/(1 - ζ/2ν_κ), ν_η τ = 8/5√π, ν_κ τ = 16/15√π: higher ones add 3%."""
+    zeta, found = 2 * x / (3 * np.sqrt(np.pi)), coefficients(x)
+    eta, kappa = 8 / (5 * np.sqrt(np.pi)), 16 / (15 * np.sqrt(np.pi))
+    assert found["viscosity"] == pytest.approx(1 / (1 + zeta / 2 / eta), rel=0.03)
+    assert found["conductivity"] == pytest.approx(1 / (1 - zeta / 2 / kappa), rel=0.06)
+
+
+def test_range():
+    with pytest.raises(ValueError, match=r"drag_over_rate = -1 .*\[0, inf\)"):
+        coefficients(-1.0)
