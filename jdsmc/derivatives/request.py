@@ -25,8 +25,11 @@ def requested(
     scenes: list[AbstractScene],
     wrt: bool | str | tuple[str, ...],
     facts: Facts = Facts(),  # noqa: B008 (immutable)
+    along: bool = False,
 ) -> Request:
     """The request for a scene as the user made it, and at every point of its sweep.
+
+    `along`: derivatives along the time series too.
 
     Raises ValueError for a scene whose linearised generator is not known, and for numbers that are
     none.
@@ -45,4 +48,5 @@ def requested(
     paths = chosen_paths(scene, wrt)
     own = [path.removeprefix("gas.") for path in paths.values() if path.startswith("gas.")]
     held = all(isinstance(s, AbstractHomogeneous) and s.holds_temperature() for s in scenes)
-    return Request(paths, Sampler(scene.symmetry, DEGREE, tuple(own), held), facts)
+    sampler = Sampler(scene.symmetry, DEGREE, tuple(own), held, each=along and not held)
+    return Request(paths, sampler, facts)

@@ -19,7 +19,7 @@ from .sampling import Sampler
 RELATIVE_STEP = 1e-3
 """Of numerical derivatives of closed expressions in float64: they are exact to 1e-11."""
 
-PURE = 1e-9
+PURE = 1e-8
 """Largest share of a source that is not the scaling mode's, where it is the mode up to rounding."""
 
 
@@ -102,7 +102,7 @@ class Generator:
 
     def _along(self, moments: np.ndarray, cubed: np.ndarray) -> np.ndarray:
         """The drift linearised, along changes of the averages: (trial, changes)."""
-        size = np.sqrt(self._trace(self.moments) / self.scene.gas.dimension)
+        size = np.sqrt(self.trace(self.moments) / self.scene.gas.dimension)
         scale = size ** self.degrees[:, None]
         largest = np.max(np.abs(moments / scale), axis=0) + np.abs(cubed) / size**3
         unit = RELATIVE_STEP / np.where(largest > 0, largest, 1.0)
@@ -115,7 +115,7 @@ class Generator:
         )
         return change / unit
 
-    def _trace(self, values: np.ndarray) -> Any:
+    def trace(self, values: np.ndarray) -> Any:
         """Of ⟨V²⟩, from rows of anything."""
         return np.sum(values[self.squares], axis=0)
 
@@ -126,7 +126,7 @@ class Generator:
         self.pace = 0.0  # d ln V/dt that holds the temperature
         if held:
             whole = self.source[:n] + self._drift
-            self.pace = -0.5 * self._trace(whole) / self._trace(mu)
+            self.pace = -0.5 * self.trace(whole) / self.trace(mu)
         self.balanced = self.source.copy()
         if facts.stationary:
             self.balanced[:n] = -self._drift - self.pace * degrees * mu
@@ -140,8 +140,8 @@ class Generator:
     def _held(self, whole: np.ndarray, moments: np.ndarray) -> np.ndarray:
         """What holds the temperature added to a change of dμ/dt, of moments that change too."""
         mu, degrees = self.moments[: self.count], self.degrees[: self.count]
-        pace = -0.5 * (self._trace(whole) + 2.0 * self.pace * self._trace(moments))
-        extra = np.multiply.outer(degrees * mu, pace / self._trace(mu))
+        pace = -0.5 * (self.trace(whole) + 2.0 * self.pace * self.trace(moments))
+        extra = np.multiply.outer(degrees * mu, pace / self.trace(mu))
         return whole + self.pace * (degrees * moments.T).T + extra
 
     def collisional(self, path: str) -> np.ndarray:
@@ -175,23 +175,24 @@ class Generator:
         n = self.count
         matrix, right = self.operator.copy(), -self.rates(path)
         first = self.squares[0]
+        size = np.sqrt(self.trace(self.moments) / self.scene.gas.dimension)
+        scale = size ** self.degrees[:n]
         if self.mode and not self.sampler.held:
-            image = matrix[:, first]
-            share = np.dot(image, right) / np.dot(image, image)
-            if np.max(np.abs(right - share * image)) <= PURE * np.max(np.abs(right)):
-                return self._change(path, share * np.eye(n)[first], pure=True)
+            image, asked = matrix[:, first] / scale, right / scale
+            share = np.dot(image, asked) / np.dot(image, image)
+            if np.max(np.abs(asked - share * image)) <= PURE * np.max(np.abs(asked)):
+                return self.change(path, share * np.eye(n)[first], pure=True)
         fixed = [first] if self.sampler.held else []
         fixed += [k for k in range(n) if self.degrees[k] == 1]  # momentum
         for row in fixed:
-            of_trace = self._trace(self.covariance) if row == first else self.covariance[row]
+            of_trace = self.trace(self.covariance) if row == first else self.covariance[row]
             matrix[row], right[row] = of_trace, 0.0
-        size = np.sqrt(self._trace(self.moments) / self.scene.gas.dimension)
-        scale = size ** self.degrees[:n]
         rows = np.max(np.abs(matrix) / scale, axis=1)
         solved = np.linalg.solve(matrix / rows[:, None] / scale, right / rows)
-        return self._change(path, solved / scale)
+        return self.change(path, solved / scale)
 
-    def _change(self, path: str, coefficients: np.ndarray, pure: bool = False) -> Change:
+    def change(self, path: str, coefficients: np.ndarray, pure: bool = False) -> Change:
+        """What becomes of the averages with these coefficients of the trial functions."""
         return Change(
             self.covariance @ coefficients,
             self.cubed_response @ coefficients,
@@ -204,5 +205,8 @@ def value_at(scene, path: str) -> Any:
     """The number of a scene at a path."""
     here = scene
     for step in path.split("."):
-        here = vars(here)[step] if not isinstance(here, dict | tuple | list) else here[step]
+        if isinstance(here, tuple | list):
+            here = here[int(step)]
+        else:
+            here = here[step] if isinstance(here, dict) else vars(here)[step]
     return here

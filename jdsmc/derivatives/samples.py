@@ -4,8 +4,8 @@ import numpy as np
 
 from .sampling import Sampler
 
-MOST = 256
-"""Blocks kept; beyond, neighbours are added up."""
+MOST, MOST_RECORDS = 256, 1024
+"""Blocks kept of chunks, and of records; beyond, neighbours are added up."""
 
 POINTWISE = ("moments", "second", "source", "response", "cubed", "cubed_response", "tangents")
 
@@ -25,11 +25,20 @@ class Samples:
         self._chunks = 1  # in a whole block
         self._in_last = 0
 
-    def append(self, sums: dict, elapsed: np.ndarray, first_record: int) -> None:
-        """Add the sums of a chunk, arrays (points, realizations, ...).
+    def extend(self, sums: dict, elapsed: np.ndarray, first_record: int) -> None:
+        """Add a chunk: arrays (points, realizations, parts, ...), one part or one a record.
 
-        Arguments: as `Sampler.sample` gave them; how long the chunk lasted; its first record.
+        Arguments: as `Sampler.sample` gave them; how long each record lasted, (points,
+        realizations, records); the first record.
         """
+        parts = sums["reference"].shape[2]
+        lasted = np.split(elapsed, parts, axis=2)
+        for k, own in enumerate(lasted):
+            part = {name: x[:, :, k] for name, x in sums.items()}
+            self.append(part, np.sum(own, axis=2), first_record + k * own.shape[2])
+
+    def append(self, sums: dict, elapsed: np.ndarray, first_record: int) -> None:
+        """Add averages (points, realizations, ...) over so much time, from a record on."""
         new = absolute(self.sampler, sums)
         if 0 < self._in_last < self._chunks:
             self._means[-1], self._weights[-1] = _joined(
@@ -41,7 +50,10 @@ class Samples:
         self._weights.append(elapsed)
         self._first.append(first_record)
         self._in_last = 1
-        if len(self._means) > MOST and self._chunks == self._in_last:
+        if (
+            len(self._means) > (MOST_RECORDS if self.sampler.each else MOST)
+            and self._chunks == self._in_last
+        ):
             self._halve()
 
     def _halve(self) -> None:

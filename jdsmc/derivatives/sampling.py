@@ -27,6 +27,7 @@ AFTER_STEPS = 0xFFFF_FFFF
 class Sampler(NamedTuple):
     """What is sampled, static: polynomials to a degree, numbers of the gas by their path.
 
+    `each`: sums are kept of each record, for derivatives along the time series; else of a chunk.
     `held`: the gas is held at its temperature, in units of whose speed averages then are; else
     they are absolute, and the thermal speed at the start of a chunk serves in between.
     """
@@ -35,6 +36,7 @@ class Sampler(NamedTuple):
     degree: int
     paths: tuple[str, ...]
     held: bool
+    each: bool = False
 
     @property
     def basis(self) -> list[Powers]:

@@ -4,10 +4,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..scenarios.base import weighted_means
+from ..scenarios.base import AbstractScene, weighted_means
 from ..scenarios.homogeneous import AbstractHomogeneous
 from ..stats import jackknife
-from .observed import slopes, state_of
+from .observed import reported_names, slopes, state_of
 from .response import Facts, Generator
 from .samples import Samples
 
@@ -19,7 +19,7 @@ LOWER = 2
 
 
 def steady_derivatives(
-    scene: AbstractHomogeneous,
+    scene: AbstractScene,
     samples: Samples,
     point: int,
     first: int,
@@ -32,7 +32,7 @@ def steady_derivatives(
     with `_error`, `_truncation` and `_left_out` behind it: arrays (numbers, ...) and, of the last,
     (realizations, numbers, ...). The error is the larger one of realizations and of blocks.
     """
-    if not samples.has(first):
+    if not isinstance(scene, AbstractHomogeneous) or not samples.has(first):
         return None
     means, weights, _ = samples.point(point, first)
     degree = samples.sampler.degree
@@ -70,7 +70,7 @@ def _all_slopes(scene, generator: Generator, paths: dict[str, str]) -> dict[str,
         slopes(scene, generator.sampler, path, state, generator.steady(path))
         for path in paths.values()
     ]
-    return {name: np.stack([one[name] for one in each]) for name in each[0]}
+    return {name: np.stack([one[name] for one in each]) for name in reported_names(scene)}
 
 
 def _in_blocks(means: dict[str, np.ndarray], weights: np.ndarray) -> dict[str, np.ndarray]:

@@ -99,7 +99,7 @@ def _axial_moments(mean: Averages, dimension: int) -> HeatMoments:
     even = [_power(mean, squares, n) for n in (2, 3)]
     flux = [_power(mean, squares, n, (1, 0)) for n in (1, 2, 3)]
     marginal = [mean[2 * n + 1, 0] for n in (1, 2, 3)]
-    whole = _moments(mean[2, 0], across, across, 0.0 * across, *even, mean)
+    whole = _moments(mean[2, 0], across, across, 0.0 * across, even[0], even[1], mean)
     odd = {"flux": np.stack(flux, -1), "marginal": np.stack(marginal, -1)}
     return on_host(HeatMoments, isotropic=whole, **odd)
 

@@ -5,6 +5,7 @@ import xarray as xr
 
 from .. import sweep
 from ..derivatives.steady import steady_derivatives
+from ..derivatives.transient import transient_derivatives
 from ..measure.observable import CLOCKS, COLLISION_RATIO, COLLISIONS, TIME, Observable
 from ..results.result import Result
 from ..scenarios.base import AbstractScene
@@ -169,7 +170,7 @@ def _sensitivity(scene, labels: Labels, session: Session, settled) -> dict[str, 
         else []
     )
     if any(found):
-        columns = _each(found)
+        columns = _without_nothing(_each(found))
         last = "_left_out"
         values = {n: x for n, x in columns.items() if not n.endswith(last)}
         left_out = {n.removesuffix(last): x for n, x in columns.items() if n.endswith(last)}
@@ -179,7 +180,30 @@ def _sensitivity(scene, labels: Labels, session: Session, settled) -> dict[str, 
             ("/sensitivity_left_out", left_out, along),
         ):
             groups[group] = labels.dataset(data, scene.reports, extra).assign_coords(names)
+    if samples.sampler.each:
+        series = [
+            transient_derivatives(
+                one, samples, p, np.mean(history["time"][p], axis=0), request.paths
+            )
+            for p, one in enumerate(history.scenes)
+        ]
+        columns = _without_nothing(_each(series))
+        time = {"time": columns.pop("time")}
+        data = labels.dataset(columns, scene.reports, ("parameter", "sample"))
+        data = data.merge(labels.dataset(time, CLOCKS, ("sample",))).assign_coords(names)
+        groups["/sensitivity_series"] = data.set_coords("time")
     return groups
+
+
+def _without_nothing(columns: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The same without what is NaN everywhere, with its errors."""
+    there = {name for name, values in columns.items() if np.any(np.isfinite(values))}
+    endings = ("_error", "_truncation", "_left_out")
+    base = {
+        name: next((name.removesuffix(e) for e in endings if name.endswith(e)), name)
+        for name in columns
+    }
+    return {name: values for name, values in columns.items() if base[name] in there}
 
 
 def _each(points: list[dict | None]) -> dict[str, np.ndarray]:

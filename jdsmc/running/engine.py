@@ -34,7 +34,7 @@ class Engine:
 
     Arguments: the scene of each point, the number of realizations of each, the seed of the run,
     the options; what is sampled for derivatives, if anything: `watched` then has the averages of
-    the last chunk.
+    the last chunk, or of each of its records.
     """
 
     def __init__(
@@ -108,14 +108,15 @@ def _advance(scene, keys, states, first_record, options: Options, sampler: Sampl
         def one_record(state, count):
             own = random.fold_in(key, first_record + count)
             sums = None
-            if sampler is not None:
+            if sampler is not None and reference is not None:
                 sums = sampler.sample(own, scene.gas, state.velocity, reference)
             state, record = scene.advance(own, state, options)
             return state, (record, sums)
 
         counts = jnp.arange(options.records, dtype=jnp.uint32)
         state, (records, sums) = lax.scan(one_record, state, counts)
-        watched = jax.tree.map(lambda x: jnp.mean(x, axis=0), sums)
+        one = sampler is None or sampler.each
+        watched = sums if one else jax.tree.map(lambda x: jnp.mean(x, axis=0)[None], sums)
         state, sample = scene.finish_chunk(state)
         return state, (records, sample, watched)
 

@@ -76,7 +76,8 @@ def run(
     Ctrl-C ends the run after the present chunk and returns what was measured.
     """
     scenes = scenes_of(scene)
-    request = None if sensitivity is False else requested(scene, scenes, sensitivity)
+    along = duration is not None or collisions is not None
+    request = None if sensitivity is False else requested(scene, scenes, sensitivity, along=along)
     options = options_of(scenes, n_particles, time_step, splitting, dtype, steps_per_record)
     scenes = [one.prepared() for one in scenes]
     limits = Limits(

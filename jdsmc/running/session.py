@@ -87,8 +87,7 @@ class Session:
         record, sample = self.engine.advance()
         faults.check_record(self.history, record)
         if self.samples is not None:
-            elapsed = np.sum(record.elapsed, axis=2)
-            self.samples.append(self.engine.watched, elapsed, self.history.length)
+            self.samples.extend(self.engine.watched, record.elapsed, self.history.length)
         self.history.append(record, sample)
         faults.check_collisions(self.history, record)
         if self.history.length >= self._next_check:
