@@ -20,6 +20,9 @@ alpha^2)/beta alone, and beta kappa' is that of elastic spheres. First Sonine ap
 from functools import lru_cache
 from math import pi, sqrt
 
+from scipy.optimize import brentq
+
+from .boltzmann import navier_stokes
 from .chapman_enskog import heat_flux_response, stress_response
 from .cooling_expansion import CoolingExpansion, solve_cooling
 
@@ -34,7 +37,6 @@ def _elastic() -> CoolingExpansion:
     return solve_cooling(1.0, ORDER)
 
 
-@lru_cache(maxsize=4096)
 def coefficients(drag_over_rate: float) -> dict[str, float]:
     """beta kappa'/kappa0, beta kappa/kappa0, beta n mu/(T kappa0) and beta eta/eta0 at x >= 0.
 
@@ -43,7 +45,31 @@ def coefficients(drag_over_rate: float) -> dict[str, float]:
     """
     if drag_over_rate < 0:
         raise ValueError(f"drag_over_rate = {drag_over_rate:g} is outside the range [0, inf).")
-    drag = 2.0 * drag_over_rate / (3.0 * sqrt(pi))
-    found = heat_flux_response(1.0, _elastic(), drag)
-    values = {name: float(found[name]) for name in COEFFICIENTS[:3]}
-    return values | {"viscosity": stress_response(1.0, _elastic(), drag)}
+    return _heat(drag_over_rate) | {"viscosity": _viscosity(drag_over_rate)}
+
+
+def _heat(x: float) -> dict[str, float]:
+    found = heat_flux_response(1.0, _elastic(), 2.0 * x / (3.0 * sqrt(pi)))
+    return {name: float(found[name]) for name in COEFFICIENTS[:3]}
+
+
+def _viscosity(x: float) -> float:
+    return stress_response(1.0, _elastic(), 2.0 * x / (3.0 * sqrt(pi)))
+
+
+def rate_factor(restitution: float, name: str) -> float:
+    """beta of the elastic gas that has the coefficient of inelastic spheres; d = 1.
+
+    Arguments: alpha in [0.3, 1]; one of `COEFFICIENTS` but the density coefficient, which is zero
+    without drag. ValueError for others; exact up to the truncation of `boltzmann.navier_stokes`.
+    """
+    if name not in COEFFICIENTS or name == "density_coefficient":
+        raise ValueError(f"name = {name!r} is none of {', '.join(COEFFICIENTS[:2])}, viscosity.")
+    wanted = float(vars(navier_stokes(restitution))[name])
+    loss = 1.0 - restitution**2
+
+    def miss(beta: float) -> float:
+        x = loss / beta
+        return (_viscosity(x) if name == "viscosity" else _heat(x)[name]) / beta - wanted
+
+    return float(brentq(miss, 0.35, 1.5, xtol=1e-8))

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from jdsmc.theory import sonine_elastic
-from jdsmc.theory.frictional import coefficients
+from jdsmc.theory.boltzmann import navier_stokes
+from jdsmc.theory.frictional import coefficients, rate_factor
 
 
 def test_without_drag():
@@ -33,6 +34,20 @@ def test_first_sonine(x):
     assert found["conductivity"] == pytest.approx(1 / (1 - zeta / 2 / kappa), rel=0.06)
 
 
+@pytest.mark.parametrize("name, slope", [("viscosity", 5 / 6), ("modified_conductivity", 0.0)])
+def test_rate_factor(name, slope):
+    """1 at α = 1; that of η falls as (1+α)(2+α)/6 does there, to 3% of first Sonine orders."""
+    assert rate_factor(1.0, name) == pytest.approx(1.0, abs=1e-6)
+    if slope:
+        assert (1 - rate_factor(0.98, name)) / 0.02 == pytest.approx(slope, rel=0.06)
+    alpha = 0.6
+    beta = rate_factor(alpha, name)
+    exact = vars(navier_stokes(alpha))[name]
+    assert coefficients((1 - alpha**2) / beta)[name] / beta == pytest.approx(exact, rel=1e-9)
+
+
 def test_range():
+    with pytest.raises(ValueError, match="density"):
+        rate_factor(0.7, "density_coefficient")
     with pytest.raises(ValueError, match=r"drag_over_rate = -1 .*\[0, inf\)"):
         coefficients(-1.0)
