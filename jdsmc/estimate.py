@@ -19,9 +19,15 @@ class Estimate:
 
     __array_ufunc__ = None  # array - estimate comes here, too, instead of making an array of them
 
-    def __init__(self, value, error, left_out: dict[Any, np.ndarray] | None = None):
-        """`left_out`: for every run, the values with one realization left out (R, ...)."""
+    def __init__(self, value, error, left_out: dict[Any, np.ndarray] | None = None, points=None):
+        """`left_out`: for every run, the values with one realization left out (R, ...).
+
+        `points`: a number for each element, equal for those measured on the same gas (a profile, a
+        correlation in time); by default every element is a gas of its own.
+        """
         self.value, self.error = value, error
+        shape = np.shape(value)
+        self._points = np.arange(np.size(value)).reshape(shape) if points is None else points
         if left_out is None:  # two pseudo-realizations that give just this error
             both = np.stack([np.subtract(value, error), np.add(value, error)])
             left_out = {next(_anonymous): both}
@@ -31,12 +37,16 @@ class Estimate:
         return iter((self.value, self.error))
 
     def __getitem__(self, index) -> "Estimate":
-        """One point of an array, or some of them; points of a sweep are independent."""
+        """One element of an array, or some of them; points of a sweep are independent."""
+        points = np.asarray(self._points)[index]
+        chosen, all_of_them = (tuple(np.unique(x).tolist()) for x in (points, self._points))
+        part = () if chosen == all_of_them else (chosen,)
         left_out = {
-            (run, str(index)): x[(slice(None), *np.index_exp[index])]
+            (run, *part) if part else run: x[(slice(None), *np.index_exp[index])]
             for run, x in self._left_out.items()
         }
-        return Estimate(np.asarray(self.value)[index], np.asarray(self.error)[index], left_out)
+        value, error = (np.asarray(x)[index] for x in (self.value, self.error))
+        return Estimate(value, error, left_out, points)
 
     def map(self, function: Callable) -> "Estimate":
         """A smooth function of it, element by element."""
@@ -124,7 +134,9 @@ def combine(function: Callable, *inputs) -> Estimate:
         left_out[run] = replicas
         variance = variance + (len(replicas) - 1) * np.var(replicas, axis=0)
     error = np.sqrt(variance)
-    return Estimate(value, error if np.ndim(error) else float(error), left_out)
+    alike = [x._points for x in inputs if isinstance(x, Estimate)]
+    points = next((x for x in alike if np.shape(x) == np.shape(value)), None)
+    return Estimate(value, error if np.ndim(error) else float(error), left_out, points)
 
 
 def format_estimate(value: float, error: float) -> str:

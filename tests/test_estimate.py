@@ -114,6 +114,19 @@ def test_different_runs_add_in_quadrature():
     assert ((a + b) - b).error == pytest.approx(a.error, rel=1e-9)
 
 
+def test_elements_of_one_gas_are_correlated():
+    """Two classes of one gas are as correlated as two averages; of two gases they are not."""
+    a, b = measured("run", [x_of, y_of])
+    left_out = {"run": np.stack([one._left_out["run"] for one in (a, b)], axis=-1)}
+    both = ([a.value, b.value], [a.error, b.error])
+    profile = Estimate(*map(np.array, both), left_out, points=np.zeros(2, int))
+    assert (profile[0] - profile[1]).error == pytest.approx((a - b).error, rel=1e-12)
+    assert (profile[0] - a).error == pytest.approx(0.0, abs=1e-15)  # the same run
+    sweep = Estimate(*map(np.array, both), left_out)
+    apart = (sweep[0] - sweep[1]).error
+    assert apart == pytest.approx(np.hypot(a.error, b.error), rel=1e-12)
+
+
 def test_points_of_a_sweep_are_independent():
     (sweep,) = measured("run", [x_of], shape=(2,))
     first, second = sweep[0], sweep[1]

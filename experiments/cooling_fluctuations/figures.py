@@ -135,17 +135,15 @@ def _theory_line(data: Noise, ax, alpha: float, name: str) -> None:
     ax.plot(ends, np.polyval(line, ends), color="grey", ls=":", lw=1.2)
 
 
-def _polynomials(data: Noise, ax, method: str, alpha: float, name: str, colour) -> None:
-    """Through the points, within what the axes show already."""
-    numbers = np.array(data.numbers(method, alpha))
-    fine = np.linspace(0, 1e3 / numbers[0], 50)
+def _line(data: Noise, ax, method: str, alpha: float, name: str, colour) -> None:
+    """Straight, through the points, within what the axes show already (parabolas: the table)."""
+    first = data.numbers(method, alpha)[0]
+    ends = np.array([0.0, 1e3 / first])
     shown = ax.get_ylim()
-    for order, line in ((1, "--"), (2, "-.")):
-        fit = data.fit(method, alpha, name, order)
-        if fit:
-            terms = [float(t.value) for t in fit.terms]
-            curve = np.polynomial.polynomial.polyval(fine * numbers[0] / 1e3, terms)
-            ax.plot(fine, curve, color=colour, ls=line, lw=0.9)
+    fit = data.fit(method, alpha, name, 1)
+    if fit:
+        start, slope = (float(term.value) for term in fit.terms)
+        ax.plot(ends, start + slope * ends * first / 1e3, color=colour, ls="--", lw=0.9)
     ax.set_ylim(shown)
 
 
@@ -160,14 +158,13 @@ def _against_number(data: Noise, axes, name: str) -> None:
             found = stack(data.value(method, alpha, n, name) for n in numbers)
             points(ax, 1e3 / numbers, found, fmt=MARKERS[method], color=colour)
         for method, colour in run.items():
-            _polynomials(data, ax, method, alpha, name, colour)
+            _line(data, ax, method, alpha, name, colour)
         ax.set_title(rf"$\alpha$ = {alpha:g}", fontsize=10)
         ax.set(xlabel="1000/N", ylabel=QUANTITIES[name], xlim=(-0.03, None))
     entries = _methods(SHADES) | {
         "theory (star: N → ∞)": {"color": "black"},
         "straight line through its values": {"color": "grey", "ls": ":"},
         "straight line through points": {"color": COLOURS[0], "ls": "--"},
-        "parabola through points": {"color": COLOURS[0], "ls": "-."},
     }
     for ax in list(axes.flat)[len(alphas) :]:
         ax.axis("off")

@@ -12,6 +12,8 @@ from .fit import fit
 from .keep import check_picture, draw, picture_of, show
 from .simulate import simulate
 from .spelling import never_fail_to_print
+from .theory import parser as theory_parser
+from .theory import theory
 
 COMMANDS = {
     "run": ("SCENE [options]", "simulate one gas: steady values with error bars"),
@@ -19,6 +21,7 @@ COMMANDS = {
     "fit": ("beta [options]", "the rate factor of an elastic gas that mimics an inelastic one"),
     "show": ("FILE", "print the table of a result file"),
     "plot": ("FILE [--out PICTURE]", "draw a result file"),
+    "theory": ("[--restitution A:B:STEP]", "transport coefficients without simulation"),
 }
 HELP = {"-h", "--help"}
 
@@ -66,10 +69,13 @@ def command(words: list[str]) -> int:
             names = ", ".join(catalogue.scenes())
             raise ValueError(f"`jdsmc {first}` needs a scene: {names}, or your own module:Class.")
         return simulate(first, rest[0], rest[1:])
-    if first == "fit":
-        return fit(rest)
     if first in ("show", "plot"):
         return shown(first, rest)
+    if first == "theory" and HELP & set(rest):
+        print(theory_parser().format_help(), end="")
+        return 0
+    if first in ("fit", "theory"):
+        return fit(rest) if first == "fit" else theory(rest)
     near = catalogue.did_you_mean(first, COMMANDS)
     raise ValueError(f"there is no command {first!r}{near}; there are {', '.join(COMMANDS)}.")
 

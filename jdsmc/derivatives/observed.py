@@ -36,6 +36,9 @@ def reported_names(scene: AbstractHomogeneous) -> list[str]:
 
 def values(scene: AbstractHomogeneous, sampler: Sampler, state: State) -> dict[str, np.ndarray]:
     """What a scene reports, from averages of polynomials and of collisions."""
+    if np.ndim(state.moments) == 1:  # averages have an axis on the host
+        one = State(*(np.asarray(x)[..., None] for x in state))
+        return {name: np.asarray(x[0]) for name, x in values(scene, sampler, one).items()}
     mean = Averages(sampler.rows, state.moments, {"cubed": state.cubed})
     moments = sampler.symmetry.moments(mean, scene.gas.dimension)
     heat = sum(mean[powers] for powers in sampler.symmetry.squares) / scene.gas.dimension
@@ -78,14 +81,14 @@ def slopes(
     if change.pure:
         here = values(scene, sampler, state)
         found = {n: _without_rounding(x, here[n] / (number or 1.0)) for n, x in found.items()}
-    return found
+    return {name: np.asarray(x) for name, x in found.items()}
 
 
-def _without_rounding(change: np.ndarray, scale: np.ndarray) -> np.ndarray:
+def _without_rounding(change, scale) -> Any:
     return np.where(np.abs(change) <= ZERO * np.maximum(np.abs(scale), 1e-3), 0.0, change)
 
 
-def _heat(sampler: Sampler, moments: np.ndarray, dimension: int) -> np.ndarray:
+def _heat(sampler: Sampler, moments: np.ndarray, dimension: int) -> Any:
     rows = [sampler.rows.index(powers) for powers in sampler.symmetry.squares]
     return np.sum(moments[rows], axis=0) / dimension
 

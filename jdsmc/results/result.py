@@ -45,8 +45,13 @@ class Result:
         if "left_out" in self._tree.children:
             values = self._tree["left_out"].to_dataset()[name].transpose("realization", ...).values
             left_out = {(self.attrs["run"], self.attrs.get("point", "")): values}
+        swept = [n for n, d in zip(value.shape, steady[name].dims, strict=True) if d in self.dims]
+        points = np.arange(np.prod(swept, dtype=int)).reshape(
+            swept + [1] * (value.ndim - len(swept))
+        )
+        points = np.broadcast_to(points, value.shape)
         value, error = (x if x.ndim else float(x) for x in (value, error))
-        return Estimate(value, error, left_out)
+        return Estimate(value, error, left_out, points)
 
     def __contains__(self, name: object) -> bool:
         steady = self.steady

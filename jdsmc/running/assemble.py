@@ -130,7 +130,7 @@ def _steady(scene, labels, session, settled, attrs: dict) -> tuple[dict, dict]:
         at_start = [_at_start(history[clock][p], starts[p]) for p in points]
         columns[one.name] = np.where(settled, at_start, np.nan)
     groups = {"/": labels.dataset(columns, (*scene.reports, *STEADY_FROM))}
-    left_out = _each([one and one[2] for one in estimates])
+    left_out = _each(_as_many([one and one[2] for one in estimates]))
     groups["/left_out"] = labels.dataset(left_out, scene.reports, ("realization",))
     means = [history.point(p, starts[p], history.length) if settled[p] else None for p in points]
     sums, dims = _each(means), {one.name: one for one in scene.reports}
@@ -220,6 +220,27 @@ def _each(points: list[dict | None]) -> dict[str, np.ndarray]:
         nothing = np.full(np.shape(example), np.nan)
         found[name] = np.stack([np.asarray(p[name]) if p else nothing for p in points])
     return found
+
+
+def _as_many(points: list[dict | None]) -> list[dict | None]:
+    """Values with one realization left out, filled up to as many at every point.
+
+    Blocks of realizations differ in number from point to point. Rows of the mean are added and the
+    others spread, so that the jackknife gives the same error.
+    """
+    most = max(len(values) for point in points if point for values in point.values())
+
+    def filled(values):
+        count = len(values)
+        middle = np.mean(values, axis=0)
+        spread = np.sqrt((count - 1) / count * most / (most - 1))
+        rest = np.broadcast_to(middle, (most - count, *middle.shape))
+        return np.concatenate([middle + spread * (values - middle), rest])
+
+    return [
+        point and {n: filled(v) if len(v) < most else v for n, v in point.items()}
+        for point in points
+    ]
 
 
 def _at_start(clock: np.ndarray, start: int | np.integer) -> float:

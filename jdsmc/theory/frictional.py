@@ -19,6 +19,7 @@ alpha^2)/beta alone, and beta kappa' is that of elastic spheres. First Sonine ap
 
 from functools import lru_cache
 from math import pi, sqrt
+from typing import Any
 
 from scipy.optimize import brentq
 
@@ -72,4 +73,5 @@ def rate_factor(restitution: float, name: str) -> float:
         x = loss / beta
         return (_viscosity(x) if name == "viscosity" else _heat(x)[name]) / beta - wanted
 
-    return float(brentq(miss, 0.35, 1.5, xtol=1e-8))
+    found: Any = brentq(miss, 0.35, 1.5, xtol=1e-8)
+    return float(found)

@@ -184,3 +184,28 @@ def test_same_reduced_number_same_statistics(cooling):
     for name in ("mode_amplitude", "viscosity_ratio", "noise_viscosity_ratio"):
         (one, error), (other, wrong) = cooling[name], half[name]
         assert abs(one - other) < SIGMAS * np.hypot(error, wrong)
+
+
+def test_until_precise_at_every_point_of_a_sweep():
+    """Without a duration a run ends when η is known, here to a quarter, and says so.
+
+    The points have different numbers of blocks; what follows from estimates keeps their errors.
+    """
+    gas = InelasticHardDisks([0.8, 1.0])
+    result = jdsmc.run(
+        CoolingDisks(gas, density=0.15, copies=8, real_per_cell=1.0),
+        **{"n_particles": 70, "rtol": 0.25, "progress": False},
+        **{"time_step": 0.1, "steps_per_record": 7},
+    )
+    assert "viscosity_ratio is known" in result.attrs["stopped"]
+    value, error = result["viscosity_ratio"]
+    assert np.all(error <= 0.25 * value) and value.shape == (2,)
+    doubled = 2.0 * result["viscosity_ratio"]
+    np.testing.assert_allclose(doubled.error, 2.0 * error, rtol=1e-9)  # rounding
+    exact = [langevin.transverse_mode(a, 70 * 0.15).viscosity_ratio for a in (0.8, 1.0)]
+    # cells of 1.3 λ0 make η up to a half larger, and nothing smaller
+    assert np.all(value - exact > -SIGMAS * error)
+    assert np.all(value - exact < 0.5 + SIGMAS * error)
+    assert result.steady["autocorrelation"].dims == ("restitution", "lag")
+    assert np.all(np.isfinite(result.steady["autocorrelation_error"][:, 0]))
+    assert "0.8" in result.table()
