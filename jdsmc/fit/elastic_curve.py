@@ -84,7 +84,7 @@ def law(name: str) -> Law:
     return LAWS[name]
 
 
-def stretched(x) -> np.ndarray:
+def stretched(x):
     """u = z/(1+z), z = ζ/ν of the kinetic model."""
     z = COOLING * VISCOSITY_TIME * np.asarray(x, float)
     return z / (1.0 + z)
@@ -137,14 +137,14 @@ class Curve:
         parts = [found[k] / x[k] ** self.law.power for k in range(len(x))]
         self._nodes = [_spread(one**self._sign, spread) for one in parts]
 
-    def _t(self, x) -> np.ndarray:
+    def _t(self, x):
         return (stretched(x) - self._middle) / self._half
 
     def _columns(self, x) -> np.ndarray:
         columns = np.polynomial.chebyshev.chebvander(self._t(x), DEGREE)
         return columns.reshape((*np.shape(x), DEGREE + 1))
 
-    def observable(self, beta, x) -> np.ndarray:
+    def observable(self, beta, x):
         """The observable at a rate factor and x, arrays of one shape."""
         return self._front(beta, x) * (self._columns(x) @ self._coefficients) ** self._sign
 
