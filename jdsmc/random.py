@@ -77,8 +77,11 @@ def bits(key: Key, shape: tuple[int, ...], stream=0) -> tuple[Word, Word]:
     return threefry(key, count, jnp.asarray(stream, jnp.uint32))
 
 
-def unit_interval(word: Word, dtype, n_bits: int = 24):
-    """Uniform numbers in (0, 1) from the leading `n_bits` of each word: midpoints of 2^n cells."""
+def unit_interval(word: Word, dtype, n_bits: int = 23):
+    """Uniform numbers in (0, 1) from the leading `n_bits` of each word: midpoints of 2^n cells.
+
+    23 bits are the most whose midpoints are float32 numbers: that of the last of 2^24 cells is 1.
+    """
     return ((word >> (32 - n_bits)).astype(dtype) + 0.5) * 2.0**-n_bits
 
 

@@ -18,11 +18,11 @@ def jackknife(means: dict[Any, np.ndarray], function: Callable, axis: int):
     estimate of the error is right for any smooth function (Efron 1982).
     """
     count = next(iter(means.values())).shape[axis]
-    total = {name: np.sum(value, axis=axis) for name, value in means.items()}
-    value = function({name: array / count for name, array in total.items()})
+    value = function({name: np.mean(array, axis=axis) for name, array in means.items()})
+    others = {name: _sums_of_others(array, axis) for name, array in means.items()}
     with np.errstate(invalid="ignore"):  # what is infinite has no error: NaN
         left_out = [
-            function({n: (total[n] - np.take(means[n], r, axis=axis)) / (count - 1) for n in means})
+            function({name: sums[r] / (count - 1) for name, sums in others.items()})
             for r in range(count)
         ]
         out = {name: np.stack([np.asarray(one[name]) for one in left_out]) for name in value}
@@ -30,6 +30,18 @@ def jackknife(means: dict[Any, np.ndarray], function: Callable, axis: int):
             name: np.sqrt((count - 1) * np.var(values, axis=0)) for name, values in out.items()
         }
     return value, error, out
+
+
+def _sums_of_others(values: np.ndarray, axis: int) -> np.ndarray:
+    """For each element along an axis, moved to the front, the sum of all others.
+
+    Without a subtraction: one element may be 10³⁰ times the others.
+    """
+    values = np.moveaxis(np.asarray(values), axis, 0)
+    none = np.zeros_like(values[:1])
+    before = np.concatenate([none, np.cumsum(values[:-1], axis=0)])
+    after = np.concatenate([np.cumsum(values[:0:-1], axis=0)[::-1], none])
+    return before + after
 
 
 def drift_significance(early: np.ndarray, late: np.ndarray, axis: int = -1) -> np.ndarray:

@@ -95,3 +95,9 @@ def test_keys_do_not_repeat():
 def test_bad_seed(seed):
     with pytest.raises(ValueError, match="seed"):
         random.key_from_seed(seed)
+
+
+def test_uniform_numbers_stay_inside():
+    """The last word of all bits set, too: 1 would make an emitted or initial speed of zero."""
+    ends = random.unit_interval(jnp.array([0, 0xFFFFFFFF], jnp.uint32), jnp.float32)
+    assert 0.0 < float(ends[0]) < float(ends[1]) < 1.0

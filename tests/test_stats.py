@@ -94,3 +94,11 @@ def test_variogram_ratio():
     drift = np.arange(16.0) ** 2
     assert variogram_ratio(white + drift) == pytest.approx(variogram_ratio(white), rel=1e-9)
     assert variogram_ratio(np.ones((8, 16))) == 0.0
+
+
+def test_leaving_out_the_one_that_counts():
+    """One realization 10³⁰ times the others: left out, the mean of these is left, not 0."""
+    values = np.array([1e30, 1.0, 2.0, 3.0])
+    _, _, left_out = jackknife({"x": values}, lambda m: {"x": m["x"]}, axis=0)
+    assert left_out["x"][0] == 2.0
+    np.testing.assert_allclose(left_out["x"][1:], 1e30 / 3, rtol=1e-15)

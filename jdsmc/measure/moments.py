@@ -19,10 +19,11 @@ LARGEST_VELOCITY = 10.0
 
 
 class Moments(eqx.Module):
-    """Means over the particles at one instant (units of v0).
+    """Means over the particles at one instant.
 
-    `xx`..`xy`: ⟨V_i V_j⟩ (no `zz` in two dimensions); `fourth`, `sixth`: ⟨V⁴⟩, ⟨V⁶⟩; `cubed`:
-    ⟨V12³⟩ over N/2 pairs; `classes`: fractions of particles with C in [0,1), [1,2), [2,3), [3,∞).
+    `xx`..`xy`: ⟨V_i V_j⟩ in v0² (no `zz` in two dimensions). In units of v0(T) = √(2T/m), lest high
+    powers leave the range of float32 in a hot or cold gas: `fourth`, `sixth`: ⟨C⁴⟩, ⟨C⁶⟩; `cubed`:
+    ⟨C12³⟩ over N/2 pairs; `classes`: fractions of particles with C in [0,1), [1,2), [2,3), [3,∞).
     """
 
     xx: Scalar
@@ -56,8 +57,9 @@ class Distributions(eqx.Module):
     speed: Float[Array, " half_bins"]
 
 
-def pair_cubed(velocity: Velocity) -> Scalar:
-    """⟨|V_1 - V_2|³⟩ over N/2 pairs: a particle of the first half of the rows, one of the second.
+def pair_cubed(velocity: Velocity, thermal: Scalar) -> Scalar:
+    """⟨|V_1 - V_2|³⟩/thermal^{3/2} over N/2 pairs, each with one particle from either half of the
+    rows.
 
     Particles are exchangeable, so a fixed choice of pairs is as good as a random one and costs no
     random access. The second is taken one lane further on: partners of a collision are left in the
@@ -65,6 +67,7 @@ def pair_cubed(velocity: Velocity) -> Scalar:
     """
     half = velocity[0].shape[0] // 2
     squared = sum((v[:half] - jnp.roll(v[half : 2 * half], 1, axis=1)) ** 2 for v in velocity)
+    squared = squared / thermal
     return mean(squared * jnp.sqrt(squared))
 
 
@@ -74,16 +77,17 @@ def moments(velocity: Velocity) -> Moments:
     squared = sum(v * v for v in velocity)
     diagonal = [mean(v * v) for v in velocity]
     thermal = (2.0 / len(velocity)) * sum(diagonal)
-    below = [mean(jnp.less(squared, c * c * thermal).astype(vx.dtype)) for c in SPEED_CLASSES]
+    reduced = squared / thermal
+    below = [mean(jnp.less(reduced, c * c).astype(vx.dtype)) for c in SPEED_CLASSES]
     edges = jnp.stack([jnp.zeros_like(thermal), *below, jnp.ones_like(thermal)])
     return Moments(
         diagonal[0],
         diagonal[1],
         diagonal[2] if rest else None,
         mean(vx * vy),
-        mean(squared * squared),
-        mean(squared * squared * squared),
-        pair_cubed(velocity),
+        mean(reduced * reduced),
+        mean(reduced * reduced * reduced),
+        pair_cubed(velocity, thermal),
         jnp.diff(edges),
     )
 

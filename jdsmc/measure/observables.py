@@ -70,12 +70,14 @@ def maxwell_speed_classes(dimension: int = 3) -> np.ndarray:
 
 
 def moment_averages(m) -> dict[str, np.ndarray]:
-    """Moments with the powers of T that normalize them."""
+    """Moments (units of v0) with the powers of T that normalize them."""
     heat = temperature(m)
     powers = {f"T{k}": heat ** (k / 2.0) for k in (1, 3, 4, 6)}
-    names = ("xx", "yy", "zz", "xy", "fourth", "sixth", "cubed", "classes")
-    direct = {name: getattr(m, name) for name in names if getattr(m, name) is not None}
-    return {"temperature": heat, **powers, **direct}
+    seconds = {"xx": m.xx, "yy": m.yy, "zz": m.zz, "xy": m.xy}
+    direct = {name: values for name, values in seconds.items() if values is not None}
+    for name, power in (("cubed", 3), ("fourth", 4), ("sixth", 6)):
+        direct[name] = getattr(m, name) * 2.0 ** (power / 2.0) * powers[f"T{power}"]
+    return {"temperature": heat, **powers, **direct, "classes": m.classes}
 
 
 def isotropic(means: dict, dimension: int = 3) -> dict:

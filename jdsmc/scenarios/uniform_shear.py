@@ -72,7 +72,7 @@ class UniformShear(AbstractHomogeneous):
         """Factor of the drag: 1, or ⟨V12³⟩/⟨V12³⟩0 of the present velocities if asked."""
         if not (isinstance(self.gas, ElasticHardSpheres) and self.gas.drag == "measured"):
             return jnp.ones((), velocity[0].dtype)
-        return pair_cubed(velocity) / (MAXWELL_CUBED * temperature_of(velocity) ** 1.5)
+        return pair_cubed(velocity, temperature_of(velocity)) / MAXWELL_CUBED
 
     def rate(self) -> Any:
         """The shear rate."""

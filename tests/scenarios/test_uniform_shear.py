@@ -184,4 +184,21 @@ def test_sampled_pairs_are_not_partners_of_a_collision():
     expected = MAXWELL_CUBED * 0.5**1.5
     error = 1.26 * expected / np.sqrt(20_000)
     # neighbours share particles: (1, 2), (2, 3), ...: at most doubles the variance
-    assert abs(float(pair_cubed(doubled)) - expected) < 4.5 * np.sqrt(2) * error
+    assert abs(float(pair_cubed(doubled, jnp.float32(1.0))) - expected) < 4.5 * np.sqrt(2) * error
+
+
+def test_the_shear_rate_only_sets_the_unit():
+    """Hard spheres have no time scale: reduced values agree for rates 10¹⁶ apart, T/a² too.
+
+    ⟨V⁶⟩ is 10⁻⁴⁸ v0⁶ and 10⁴⁸ v0⁶ there, outside float32.
+    """
+    rates = [1e-8, 4.0, 1e8]
+    result = jdsmc.run(
+        UniformShear(InelasticHardSpheres(0.7), rates),
+        **{"n_particles": 256, "rtol": 0.1, "progress": False},
+    )
+    for name in ("a2", "a3", "relative_speed_cubed", "shear_stress"):
+        value, error = result[name]
+        assert np.all(np.abs(value - value[1]) < 4.5 * np.hypot(error, error[1]) + 1e-9), name
+    value, error = result["temperature"] / np.square(rates)
+    assert np.all(np.abs(value - value[1]) < 4.5 * np.hypot(error, error[1]) + 1e-9 * value)
