@@ -14,6 +14,7 @@ PAPERS = (
     "conduction_limits",
     "conduction_limits.convergence",
     "cooling_fluctuations",
+    "calibration",
 )
 
 

@@ -1,14 +1,6 @@
 """Tables and pages in Markdown."""
 
-from collections.abc import Iterable, Mapping, Sequence
-
-
-def document(sections: Mapping[str, Iterable[str]]) -> str:
-    """A page of titles and their lines; the first title is that of the page."""
-    lines = []
-    for level, (title, body) in enumerate(sections.items()):
-        lines += [f"{'#' if level == 0 else '##'} {title}", "", *body, ""]
-    return "\n".join(lines)
+from collections.abc import Iterable, Sequence
 
 
 def grid(header: Sequence[str], rows: Iterable[Sequence]) -> list[str]:

@@ -1,6 +1,6 @@
 """Direct simulation Monte Carlo of granular and molecular gases."""
 
-from . import random, scenarios, theory, transport
+from . import fit, random, scenarios, theory, transport
 from .derivatives.sensitivity import sensitivity
 from .errors import FaultError, NotSteadyError
 from .estimate import Estimate, combine
@@ -32,6 +32,7 @@ __all__ = [
     "choice",
     "combine",
     "count",
+    "fit",
     "load",
     "number",
     "random",

@@ -71,6 +71,7 @@ def test_odd_shapes(value, why):
         ({"rate_factor": "quadratic"}, "rate_factor = 'quadratic' .*linear, viscosity"),
         ({"rate_factor": 0.0}, r"rate_factor = 0 .*\(0, 2\]"),
         ({"rate_factor": 2.5}, r"rate_factor = 2.5 .*\(0, 2\]"),
+        ({"drag_factor": -0.5}, r"drag_factor = -0.5 .*\[0, inf\)"),
     ],
 )
 def test_elastic_gas(options, words):

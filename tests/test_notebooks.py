@@ -19,7 +19,7 @@ ABSOLUTE_PATH = re.compile(
 )
 notebook = pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda p: p.stem)
 
-SLOW = {"02_fourier_flow", "04_cooling_fluctuations"}
+SLOW = {"02_fourier_flow", "04_cooling_fluctuations", "05_sensitivities_and_calibration"}
 """Two minutes of CPU time even when small: heat diffuses across five slabs, modes decay slowly."""
 executed = pytest.mark.parametrize(
     "path",

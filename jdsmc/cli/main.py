@@ -8,6 +8,7 @@ from ..errors import FaultError
 from ..results.result import load
 from . import catalogue
 from .arguments import Parser
+from .fit import fit
 from .keep import check_picture, draw, picture_of, show
 from .simulate import simulate
 from .spelling import never_fail_to_print
@@ -17,6 +18,7 @@ from .theory import theory
 COMMANDS = {
     "run": ("SCENE [options]", "simulate one gas: steady values with error bars"),
     "sweep": ("SCENE [options]", "simulate every combination of the given numbers and gases"),
+    "fit": ("beta [options]", "the rate factor of an elastic gas that mimics an inelastic one"),
     "show": ("FILE", "print the table of a result file"),
     "plot": ("FILE [--out PICTURE]", "draw a result file"),
     "theory": ("[--restitution A:B:STEP]", "transport coefficients without simulation"),
@@ -69,11 +71,11 @@ def command(words: list[str]) -> int:
         return simulate(first, rest[0], rest[1:])
     if first in ("show", "plot"):
         return shown(first, rest)
-    if first == "theory":
-        if HELP & set(rest):
-            print(theory_parser().format_help(), end="")
-            return 0
-        return theory(rest)
+    if first == "theory" and HELP & set(rest):
+        print(theory_parser().format_help(), end="")
+        return 0
+    if first in ("fit", "theory"):
+        return fit(rest) if first == "fit" else theory(rest)
     near = catalogue.did_you_mean(first, COMMANDS)
     raise ValueError(f"there is no command {first!r}{near}; there are {', '.join(COMMANDS)}.")
 

@@ -100,14 +100,14 @@ def _option(flag: str, field: dataclasses.Field, hint: Any) -> Option | None:
     default = _default(field)
     choices = facts.get("choices") or (typing.get_args(hint) if _is_literal(hint) else ())
     if choices:
-        said = f"{meaning}: {', '.join(choices)}", partial(_chosen, choices=choices), "NAME"
+        said = f"{meaning}: {', '.join(choices)}", partial(chosen, choices=choices), "NAME"
     elif hint is bool or isinstance(default, bool):
         said = f"{meaning}: yes or no", truth, "yes|no"
     elif "least" in facts or hint is int:
         least = f", at least {facts['least']}" if "least" in facts else ""
         said = meaning + least, whole, "NUMBER"
     elif hint is str:
-        said = meaning, _text, "TEXT"
+        said = meaning, text, "TEXT"
     elif facts.get("static") and hint is float:
         said = _with_unit(meaning, facts, ()), one_number, "NUMBER"
     elif "range" in facts or hint in (float, Any):
@@ -129,13 +129,15 @@ def _is_literal(hint: Any) -> bool:
     return typing.get_origin(hint) is Literal
 
 
-def _text(name: str, text: str) -> str:
-    return text
+def text(name: str, said: str) -> str:
+    """What was said."""
+    return said
 
 
-def _chosen(name: str, text: str, choices: tuple[str, ...]) -> str:
-    check.one_of(name, text, choices)
-    return text
+def chosen(name: str, said: str, choices: tuple[str, ...]) -> str:
+    """One of a few names; ValueError for another."""
+    check.one_of(name, said, choices)
+    return said
 
 
 def _with_unit(meaning: str, facts, names: tuple[str, ...]) -> str:
@@ -175,10 +177,10 @@ def run_options(taken: set[str], default_rtol: float, particles: str) -> list[Op
         ("budget", "budget", one_number, "most collisions per particle to spend"),
         ("time-step", "time_step", one_number, "largest time step, as a fraction of τ(T) and of "
          "the scene's own times, in (0, 1]"),
-        ("splitting", "splitting", partial(_chosen, choices=("strang", "lie")),
+        ("splitting", "splitting", partial(chosen, choices=("strang", "lie")),
          "order of flow and collisions in a step: strang (second order) or lie (first, as in the "
          "papers)"),
-        ("dtype", "dtype", partial(_chosen, choices=("float32", "float64")),
+        ("dtype", "dtype", partial(chosen, choices=("float32", "float64")),
          "precision of the velocities: float32 or float64"),
         ("steps-per-record", "steps_per_record", whole, "time steps between two measurements"),
     )  # fmt: skip

@@ -12,6 +12,9 @@ from .base import AbstractGas
 MEAN_RATE = math.sqrt(2.0 / math.pi)
 """Collisions per particle and time of hard spheres over √T: eq. (3.11) of Astillero and Santos."""
 
+COOLING = 2.0 / (3.0 * math.sqrt(math.pi))
+"""ζ0 τ over 1-α²: eq. (2.16)."""
+
 
 def restitution_field():
     """α in (0, 1]."""
@@ -94,7 +97,11 @@ class ElasticHardSpheres(AbstractGas):
         rate_factor: β, the collision rate over that of the inelastic gas: "linear" for
             (1+α)/2, "viscosity" for (1+α)(2+α)/6, or a number in (0, 2].
         drag: "local" for γ = ζ0/2, "measured" for γ = (ζ0/2)⟨V12³⟩/⟨V12³⟩0.
+        drag_factor: d >= 0 that multiplies this friction, 1 in the paper; number or 1-D array.
     Raises ValueError for values outside these. Source: Astillero and Santos, eqs. (2.20), (2.21).
+
+    In steady shear every reduced stress and cumulant, and a*/β, depends on x = d (1-α²)/β alone:
+    divide the Boltzmann equation by β.
     """
 
     restitution: Any = restitution_field()
@@ -108,6 +115,9 @@ class ElasticHardSpheres(AbstractGas):
     )
     drag: Literal["local", "measured"] = choice(
         "friction of the elastic gas", ("local", "measured"), default="local"
+    )
+    drag_factor: Any = number(
+        "factor d of the friction of the elastic gas", low=0.0, high_included=False, default=1.0
     )
 
     def collision_factor(self):
@@ -133,8 +143,8 @@ class ElasticHardSpheres(AbstractGas):
         return np.zeros_like(temperature)
 
     def drag_coefficient(self):
-        """c in ζ = c √(2T), twice the friction constant γ: ζ0 = 2(1-α²)/(3√π τ), eq. (2.16)."""
-        return (2.0 / (3.0 * math.sqrt(math.pi))) * (1.0 - self.restitution**2)
+        """c in ζ = c √(2T), twice the friction constant γ: d ζ0, ζ0 = 2(1-α²)/(3√π τ) (2.16)."""
+        return self.drag_factor * COOLING * (1.0 - self.restitution**2)
 
 
 def drag_loss_rate(gas: AbstractGas, temperature):

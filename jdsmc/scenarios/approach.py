@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..gases import AbstractGas, ElasticHardSpheres, InelasticHardSpheres
-from ..theory.bgk_shear_flow import steady_state
+from ..gases.hard_spheres import COOLING
 from ..units import VISCOSITY_TIME
 
 
@@ -45,18 +45,24 @@ def of_sheared_gas(gas: AbstractGas, shear_rate: float) -> Approach:
     """
     if not isinstance(gas, InelasticHardSpheres | ElasticHardSpheres):
         return UNKNOWN
-    alpha = float(gas.restitution)
-    ihs = isinstance(gas, InelasticHardSpheres)
-    beta = (1.0 + alpha) / 2.0 if ihs else float(gas.collision_factor())
-    rate, steady = slowest_rate(alpha, beta, shear_rate)
-    per_time = (1.0 if ihs else beta) / sqrt(pi)
+    _, beta = known = _rates(gas)
+    rate, steady = slowest_rate(*known, shear_rate)
+    per_time = (1.0 if isinstance(gas, InelasticHardSpheres) else beta) / sqrt(pi)
     return Approach(per_time / rate, log(max(1.0, 1.0 / steady - 1.0)))
 
 
-def slowest_rate(alpha: float, beta: float, shear_rate: float) -> tuple[float, float]:
+def _rates(gas: InelasticHardSpheres | ElasticHardSpheres) -> tuple[float, float]:
+    """ζτ and β of the kinetic model of one gas."""
+    alpha = float(gas.restitution)
+    if isinstance(gas, InelasticHardSpheres):
+        return COOLING * (1.0 - alpha**2), (1.0 + alpha) / 2.0
+    return float(gas.drag_coefficient()), float(gas.collision_factor())
+
+
+def slowest_rate(cooling: float, beta: float, shear_rate: float) -> tuple[float, float]:
     """Slowest relaxation of the kinetic model of a sheared gas, in 1/τ(T_s), and T_s/T0.
 
-    Arguments: restitution in (0, 1), collision rate over that of the elastic gas, a τ0. The moment
+    Arguments: ζτ > 0, collision rate over that of the elastic gas, a τ0. The moment
     equations of `theory.bgk_shear_flow` for ln T, Π = -P_xy/nT and Y = P_yy/nT are, with
     q = a τ(T), c = ζτ and r = ντ,
 
@@ -64,7 +70,7 @@ def slowest_rate(alpha: float, beta: float, shear_rate: float) -> tuple[float, f
 
     and at rest 2qΠ/3 = c; ln q follows -ln T/2.
     """
-    c, r = 2.0 * (1.0 - alpha**2) / (3.0 * sqrt(pi)), beta / VISCOSITY_TIME
+    c, r = cooling, beta / VISCOSITY_TIME
     z = c / r
     e = sqrt(1.5 * z) * (1.0 + z)
     q, stress, yy = e * r, e / (1.0 + z) ** 2, 1.0 / (1.0 + z)
@@ -87,13 +93,13 @@ def of_sheared_slab(gas: AbstractGas, shear_rate: float, length: float) -> Appro
     if not isinstance(gas, InelasticHardSpheres | ElasticHardSpheres):
         return UNKNOWN
     shear = of_sheared_gas(gas, shear_rate)
-    alpha = float(gas.restitution)
+    cooling, beta = _rates(gas)
     hottest = 1.0 + (shear_rate * length) ** 2 / 18.0
-    steady = float(np.asarray(steady_state(alpha, shear_rate).temperature))
+    _, steady = slowest_rate(cooling, beta, shear_rate)
     return Approach(
         shear.collisions + 0.03 * length**2,
         log(max(1.0, hottest / steady)),
-        certain=length**2 * (1.0 - alpha**2) < 30.0,
+        certain=length**2 * cooling / COOLING < 30.0,
     )
 
 

@@ -34,30 +34,35 @@ from .laguerre_basis import Floats, LaguerreBasis, radial_rule
 SONINE_COUNT = 3
 
 
-def heat_flux_response(restitution: float, cooling: CoolingExpansion) -> dict[str, Floats]:
+def heat_flux_response(
+    restitution: float, cooling: CoolingExpansion, drag: float = 0.0
+) -> dict[str, Floats]:
     """Coefficients of the heat flux over the elastic first Sonine ones, and b'_1, b'_2, b'_3.
 
     Keys as in `heat_flux_expansion`, and `sonine`, of shape (3,).
     """
-    expansions = heat_flux_expansion(restitution, cooling)
+    expansions = heat_flux_expansion(restitution, cooling, drag)
     sonine = _sonine_projection(LaguerreBasis(cooling.basis.order, 1, cooling.basis.theta))
     to_ratio = 16 / (15 * sqrt(pi))  # kappa/kappa0 over b_1, Eqs. (2.45) and (2.47)
     ratios = {name: to_ratio * (sonine[0] @ vector) for name, vector in expansions.items()}
     return {**ratios, "sonine": sonine @ expansions["modified_conductivity"]}
 
 
-def stress_response(restitution: float, cooling: CoolingExpansion) -> float:
+def stress_response(restitution: float, cooling: CoolingExpansion, drag: float = 0.0) -> float:
     """eta over the elastic first Sonine viscosity."""
     basis = LaguerreBasis(cooling.basis.order, 2, cooling.basis.theta)
-    flux = basis.moments(2) / 15 @ stress_expansion(restitution, cooling)
+    flux = basis.moments(2) / 15 @ stress_expansion(restitution, cooling, drag)
     return float(-16 / (5 * sqrt(pi)) * flux)
 
 
-def heat_flux_expansion(restitution: float, cooling: CoolingExpansion) -> dict[str, Floats]:
+def heat_flux_expansion(
+    restitution: float, cooling: CoolingExpansion, drag: float = 0.0
+) -> dict[str, Floats]:
     """Coefficients of A', A and B in functions of rank 1, each of shape (order,).
 
     Keys `modified_conductivity`, `conductivity` and `density_coefficient`, which they determine. B
-    comes from its own equation, not from 2 (A - A').
+    comes from its own equation, not from 2 (A - A'). `drag`: ζτ of a drag besides the collisions
+    (`jdsmc.theory.frictional`): it changes T, hence the shifts, and drops out of Lambda.
     """
     basis = LaguerreBasis(cooling.basis.order, 1, cooling.basis.theta)
     operator, mass = _lambda_and_mass(restitution, cooling, basis)
@@ -69,21 +74,22 @@ def heat_flux_expansion(restitution: float, cooling: CoolingExpansion) -> dict[s
     def solved(matrix: Floats, source: Floats) -> Floats:
         return np.linalg.solve(np.vstack([matrix[:-1], momentum]), np.append(source[:-1], 0.0))
 
-    temperature = solved(operator - cooling.rate / 2 * mass, source_a)
+    shift = cooling.rate + drag
+    temperature = solved(operator - shift / 2 * mass, source_a)
     return {
         "modified_conductivity": solved(operator, source_a - source_b / 2),
         "conductivity": temperature,
-        "density_coefficient": solved(operator, source_b + cooling.rate * mass @ temperature),
+        "density_coefficient": solved(operator, source_b + shift * mass @ temperature),
     }
 
 
-def stress_expansion(restitution: float, cooling: CoolingExpansion) -> Floats:
+def stress_expansion(restitution: float, cooling: CoolingExpansion, drag: float = 0.0) -> Floats:
     """Coefficients of C in functions of rank 2, shape (order,)."""
     basis = LaguerreBasis(cooling.basis.order, 2, cooling.basis.theta)
     operator, mass = _lambda_and_mass(restitution, cooling, basis)
     square, value, slope = _weighted_by_cooling(cooling, basis)
     source = -(5 * value + 2 * slope) @ square
-    return np.linalg.solve(operator + cooling.rate / 2 * mass, source)
+    return np.linalg.solve(operator + (cooling.rate + drag) / 2 * mass, source)
 
 
 def _lambda_and_mass(

@@ -5,6 +5,7 @@ scene, add what is its own: theory beside the values, panels that belong togethe
 """
 
 from . import (
+    calibration,
     cooling_disks,
     fourier_flow,
     generic,
@@ -18,6 +19,7 @@ from . import (
 from .page import Page, as_html, as_text
 
 _SCENES = {
+    "Calibration": calibration,
     "CoolingDisks": cooling_disks,
     "FourierFlow": fourier_flow,
     "HeatFluxForce": heat_flux_force,

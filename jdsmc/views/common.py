@@ -16,6 +16,7 @@ SYMBOLS = {
     "length": "L",
     "cold_temperature": "T_-/T_+",
     "rate_factor": "β",
+    "drag_factor": "d",
     "kick": "ε",
 }
 """Of the numbers of jdsmc's own scenes and gases; others are called by their names."""

@@ -17,11 +17,13 @@ STYLES: dict[str, str] = dict(zip(STRESSES, ("-", "--", "-."), strict=True))
 
 
 def has_theory(attrs: dict) -> bool:
-    """True of hard spheres, elastic ones with the rate factor that the model stands for."""
+    """True of hard spheres, elastic ones with the rate and the drag that the model stands for."""
     gases = common.gas_models(attrs)
     if not gases <= {"InelasticHardSpheres", "ElasticHardSpheres"}:
         return False
-    return "ElasticHardSpheres" not in gases or attrs.get("option_rate_factor") == "linear"
+    usual_drag = np.all(np.equal(attrs.get("parameter_drag_factor", 1.0), 1.0))
+    usual = bool(usual_drag and attrs.get("option_rate_factor") == "linear")
+    return "ElasticHardSpheres" not in gases or usual
 
 
 def model_at(result, here: xr.Dataset, **instead) -> dict[str, np.ndarray]:

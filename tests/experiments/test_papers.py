@@ -27,6 +27,7 @@ COUNTS = {
     "conduction_limits": (0, 0),
     "conduction_limits.convergence": (0, 1),
     "cooling_fluctuations": (21, 7),
+    "calibration": (3, 1),
 }
 """Claims and figures: none may get lost."""
 

@@ -1,5 +1,7 @@
 """Balances and limits of the homogeneous gas, sheared and cooling."""
 
+import equinox as eqx
+import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ from jdsmc.scenarios import Options, UniformShear
 from jdsmc.scenarios.homogeneous import maxwellian
 from jdsmc.units import MAXWELL_CUBED
 
+from ..helpers import f32
 from .batches import relative_error, simulate, window, within
 
 SQRT_PI = np.sqrt(np.pi)
@@ -76,6 +79,33 @@ def test_measured_drag_cools_like_the_inelastic_gas():
     cooling = 1.5 * zeta * means["cubed"] / MAXWELL_CUBED
     assert np.mean(means["cubed"] / (MAXWELL_CUBED * means["T3"])) > 1.05
     assert within(-4.0 * means["xy"] / cooling - 1)
+
+
+@pytest.mark.parametrize("drag", ["local", "measured"])
+def test_frictional_gas_depends_on_drag_over_rate(drag):
+    """β and c divided by the same number, time and 1/a multiplied with it: the same velocities.
+
+    So reduced stresses and a*/β of a steady state depend on x = d (1-α²)/β alone. Float32 roundings
+    of 40 steps leave 1e-6, a drag that is wrong by 0.1% more than 1e-4 (median of all velocities).
+    """
+    alpha, beta, factor = 0.6, 0.8, 1.3
+    gases = (
+        ElasticHardSpheres(alpha, beta, drag, factor),
+        ElasticHardSpheres(0.8, 1.0, drag, factor * (1 - alpha**2) / beta / (1 - 0.8**2)),
+        ElasticHardSpheres(0.8, 1.0, drag, 1.001 * factor * (1 - alpha**2) / beta / (1 - 0.8**2)),
+    )
+    options = Options.checked(1024, 0.05, "strang", "float32", 16)
+    found, step = [], eqx.filter_jit(UniformShear.step)
+    start = maxwellian(random.key_from_seed(3), options, InelasticHardSpheres(1.0), 0.5).velocity
+    for gas, rate, duration in zip(gases, (2.0, 2.5, 2.5), (0.05, 0.04, 0.04), strict=True):
+        scene, velocity = jax.tree.map(f32, UniformShear(gas, rate)), start
+        majorant = f32(8.0 * float(gas.collision_factor()))
+        for number in range(40):
+            key = random.fold_in(random.key_from_seed(4), number)
+            velocity, _ = step(scene, key, velocity, majorant, f32(duration), options)
+        found.append(np.stack([np.asarray(v) for v in velocity]))
+    same, other = (np.median(np.abs(one / found[0] - 1)) for one in found[1:])
+    assert same < 1e-5 and other > 1e-4
 
 
 def test_relative_speeds_from_pairs_and_from_the_energy_lost():

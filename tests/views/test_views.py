@@ -186,6 +186,7 @@ def test_theory_of_frictional_gas():
     attrs = {"gas_model": "ElasticHardSpheres", "option_rate_factor": "linear"}
     assert uniform_shear.has_theory(attrs)
     assert not uniform_shear.has_theory(attrs | {"option_rate_factor": "viscosity"})
+    assert not uniform_shear.has_theory(attrs | {"parameter_drag_factor": 1.1})
     assert not uniform_shear.has_theory({"gas_model": "ElasticHardSpheres"})
     assert not uniform_shear.has_theory(attrs | {"gas_model_a": "A", "gas_model_b": "B"})
 
