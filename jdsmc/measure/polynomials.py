@@ -13,7 +13,7 @@ import numpy as np
 
 from ..types import Particles
 from .heat import HeatMoments
-from .moments import Moments
+from .moments import Moments, temperature
 
 Powers = tuple[int, ...]
 
@@ -121,9 +121,11 @@ def _power(mean: Averages, squares: list[Powers], exponent: int, times: Powers =
 
 def _moments(xx, yy, zz, xy, fourth, sixth, mean: Averages) -> Moments:
     """As `measure.moments`; the speed classes, which no polynomial has, are NaN."""
-    even = {"xx": xx, "yy": yy, "zz": zz, "xy": xy, "fourth": fourth, "sixth": sixth}
+    thermal = 2.0 * temperature(on_host(Moments, xx=xx, yy=yy, zz=zz))
+    high = {"fourth": fourth / thermal**2, "sixth": sixth / thermal**3}
+    high["cubed"] = mean["cubed"] / thermal**1.5
     classes = np.full((*np.shape(xx), 4), np.nan)
-    return on_host(Moments, **even, cubed=mean["cubed"], classes=classes)
+    return on_host(Moments, xx=xx, yy=yy, zz=zz, xy=xy, **high, classes=classes)
 
 
 def on_host(kind: type, **fields) -> Any:
