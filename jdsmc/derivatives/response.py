@@ -80,7 +80,8 @@ class Generator:
         mean = Averages(self.sampler.rows, moments, {"cubed": cubed})
         shape = np.shape(moments)[1:]
         trial = self.sampler.rows[: self.count]
-        found = [np.broadcast_to(scene.moment_drift(powers, mean), shape) for powers in trial]
+        drift = scene.moment_drift  # a bound method of a module takes time to make
+        found = [np.broadcast_to(drift(powers, mean), shape) for powers in trial]
         return np.stack(found).astype(float)
 
     def _linearise(self) -> None:

@@ -41,19 +41,16 @@ class Samples:
         """Add averages (points, realizations, ...) over so much time, from a record on."""
         new = absolute(self.sampler, sums)
         if 0 < self._in_last < self._chunks:
-            self._means[-1], self._weights[-1] = _joined(
-                (self._means[-1], self._weights[-1]), (new, elapsed)
-            )
+            last = self._means[-1], self._weights[-1]
+            self._means[-1], self._weights[-1] = _joined(last, (new, elapsed))
             self._in_last += 1
-            return
-        self._means.append(new)
-        self._weights.append(elapsed)
-        self._first.append(first_record)
-        self._in_last = 1
-        if (
-            len(self._means) > (MOST_RECORDS if self.sampler.each else MOST)
-            and self._chunks == self._in_last
-        ):
+        else:
+            self._means.append(new)
+            self._weights.append(elapsed)
+            self._first.append(first_record)
+            self._in_last = 1
+        most = MOST_RECORDS if self.sampler.each else MOST
+        if len(self._means) > most and self._in_last == self._chunks:
             self._halve()
 
     def _halve(self) -> None:

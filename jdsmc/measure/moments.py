@@ -76,7 +76,7 @@ def moments(velocity: Velocity) -> Moments:
     vx, vy, *rest = velocity
     squared = sum(v * v for v in velocity)
     diagonal = [mean(v * v) for v in velocity]
-    thermal = (2.0 / len(velocity)) * sum(diagonal)
+    thermal = (2.0 / len(velocity)) * sum(diagonal[1:], diagonal[0])
     reduced = squared / thermal
     below = [mean(jnp.less(reduced, c * c).astype(vx.dtype)) for c in SPEED_CLASSES]
     edges = jnp.stack([jnp.zeros_like(thermal), *below, jnp.ones_like(thermal)])

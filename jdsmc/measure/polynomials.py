@@ -6,6 +6,7 @@ gas; it is named by its powers, (1, 1, 0) is v_x v_y.
 
 import itertools
 from collections.abc import Callable, Iterator, Mapping
+from functools import cache
 from typing import Any, NamedTuple
 
 import jax.numpy as jnp
@@ -39,9 +40,7 @@ class Symmetry(NamedTuple):
 
     def basis(self, degree: int) -> list[Powers]:
         """Every polynomial from the first to that degree, low degrees first."""
-        most = [range(degree // d + 1) for d in self.degrees]
-        every = [powers for powers in itertools.product(*most) if self._holds(powers, degree)]
-        return sorted(every, key=lambda powers: (self.degree(powers), powers))
+        return list(_basis(self, degree))
 
     def _holds(self, powers: Powers, degree: int) -> bool:
         own = self.degree(powers)
@@ -60,6 +59,13 @@ class Symmetry(NamedTuple):
             return found[powers]
 
         return [value(powers) for powers in basis]
+
+
+@cache
+def _basis(symmetry: Symmetry, degree: int) -> tuple[Powers, ...]:
+    most = [range(degree // d + 1) for d in symmetry.degrees]
+    every = [powers for powers in itertools.product(*most) if symmetry._holds(powers, degree)]
+    return tuple(sorted(every, key=lambda powers: (symmetry.degree(powers), powers)))
 
 
 class Averages(Mapping):
