@@ -119,9 +119,11 @@ def test_sweep_and_series():
     at = result.at(restitution=0.7).sensitivity["shear_stress"]["restitution"]
     assert at.value == one.value[1]
     series = result.sensitivity.series
-    late = series["shear_stress"].isel(sample=-1).sel(parameter="restitution")
     assert np.all(series["temperature"].isel(sample=0) == 0.0)
-    assert np.all(np.isfinite(late)) and np.all(late < 0)
+    late = series.isel(sample=-1).sel(parameter="restitution")
+    off = late["shear_stress"] - one.value  # one instant against all: its error decides
+    assert np.all(np.abs(off) < 4 * late["shear_stress_error"])
+    assert np.all(late["shear_stress_error"] < 1.5)  # of 4096 particles
 
 
 def test_off_unless_asked():
