@@ -78,3 +78,11 @@ def test_own_scene(folder, capsys):
         assert found.error < 0.15 * abs(wanted)
         assert abs(found.value - wanted) < 5 * found.error + 0.04 * abs(wanted)
     assert theory(0.3) > theory(0.5) > 0 > theory(0.8)
+
+
+@pytest.mark.slow
+def test_derivatives(folder, capsys):
+    names = read_page("sensitivities.md", folder)
+    one = names["one"]
+    assert abs(one.value + 0.52) < 5 * one.uncertainty  # -0.5200(5) by differences of long runs
+    assert "restitution" in capsys.readouterr().out
