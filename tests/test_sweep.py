@@ -34,10 +34,12 @@ def two_gases(**more):
 def test_parameters_of_a_scene():
     """Names of the fields, gas first; a named rate factor is no number."""
     scene = UniformShear(ElasticHardSpheres(0.8), 4.0)
-    assert list(sweep.parameters(scene)) == ["restitution", "shear_rate"]
-    assert list(sweep.numbers(scene)) == ["gas.restitution", "shear_rate"]
+    assert list(sweep.parameters(scene)) == ["restitution", "drag_factor", "shear_rate"]
+    numbers = ["gas.restitution", "gas.drag_factor", "shear_rate"]
+    assert list(sweep.numbers(scene)) == numbers
     scene = UniformShear(ElasticHardSpheres(0.8, 0.9), 4.0)
-    assert list(sweep.parameters(scene)) == ["restitution", "rate_factor", "shear_rate"]
+    names = ["restitution", "rate_factor", "drag_factor", "shear_rate"]
+    assert list(sweep.parameters(scene)) == names
     assert sweep.dimensions(scene) == {}
 
 

@@ -142,6 +142,14 @@ class History:
         """Accepted collisions per particle so far, (points,)."""
         return np.mean(self._totals["collisions"], axis=1)
 
+    def least_collisions(self) -> np.ndarray:
+        """The same of the realization that is least far, (points,).
+
+        A cold gas under a strong shear heats up before it collides: one realization may have made a
+        hundred collisions per particle when another has made none.
+        """
+        return np.min(self._totals["collisions"], axis=1)
+
     @property
     def total_accepted(self) -> float:
         """Accepted collisions of all gases together."""
@@ -152,8 +160,8 @@ class History:
         return np.mean(self._totals["time"], axis=1)
 
     def record_at_collisions(self, point: int, collisions: float) -> int:
-        """First record at which a point has made that many collisions per particle."""
-        return int(np.searchsorted(np.mean(self["collisions"][point], axis=0), collisions))
+        """First record at which every realization has made that many collisions per particle."""
+        return int(np.searchsorted(np.min(self["collisions"][point], axis=0), collisions))
 
     def on_common_times(self, point: int) -> tuple[np.ndarray, dict[str, np.ndarray]]:
         """Averages of every realization of one point at the mean times of the records.

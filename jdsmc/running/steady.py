@@ -94,7 +94,7 @@ class SteadyTracker:
 
     def update(self, history: History) -> None:
         """Test every point that is due."""
-        collisions = history.mean_collisions()
+        collisions = history.least_collisions()
         for point in range(len(self.start)):
             if collisions[point] < self._next_test[point]:
                 continue
@@ -124,7 +124,7 @@ class SteadyTracker:
 
     @staticmethod
     def _collisions_at(history: History, point: int, record) -> float:
-        return float(np.mean(history["collisions"][point, :, min(record, history.length - 1)]))
+        return float(np.min(history["collisions"][point, :, min(record, history.length - 1)]))
 
     def confirm(self, history: History, point: int) -> bool:
         """True if the measurement shows no drift; otherwise its first quarter is dropped."""
@@ -147,7 +147,7 @@ class SteadyTracker:
     def _settled(self, history: History, point: int) -> bool:
         if self.start[point] < 0:
             return False
-        end = float(history.mean_collisions()[point])
+        end = float(history.least_collisions()[point])
         latest = max(LATEST * end, self.least[point])
         first = -1
         while not self.confirm(history, point):

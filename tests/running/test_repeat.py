@@ -143,7 +143,7 @@ def test_options_reach_the_engine(monkeypatch):
     monkeypatch.setattr(Engine, "__init__", lambda self, *given: seen.append(given) or 1 / 0)
     with pytest.raises(ZeroDivisionError):
         simulate(splitting="lie", time_step=0.05, steps_per_record=100, seed=3)
-    ((_, realizations, seed, options),) = seen
+    ((_, realizations, seed, options, _),) = seen
     assert (realizations, seed) == (8, 3)
     assert (options.splitting, options.time_step) == ("lie", 0.05)
     assert (options.steps, options.records) == (100, 1)  # at least one record a chunk

@@ -82,7 +82,7 @@ def test_elastic_viscosity(elastic):
     """η/η0 of the theory, and more in cells wider than the mean free path."""
     known = langevin.transverse_mode(1.0, REDUCED).viscosity_ratio
     value, error = elastic[30]["viscosity_ratio"]
-    assert error < 0.06
+    assert error < 0.08  # 0.06 or so, known to a fifth
     assert abs(value - known * (1 + CELL_BIAS / 2)) < SIGMAS * error + known * CELL_BIAS / 2
     value, error = elastic[1]["viscosity_ratio"]
     assert value - known > 3 * error

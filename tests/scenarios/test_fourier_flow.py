@@ -134,7 +134,8 @@ def test_realizations_give_back_the_steady_means(conducting):
     flux = conducting["mean_heat_flux"]
     np.testing.assert_allclose(each["mean_heat_flux"].mean("realization"), flux.value, rtol=1e-12)
     error = each["mean_heat_flux"].std("realization", ddof=1) / np.sqrt(8)
-    np.testing.assert_allclose(error, flux.error, rtol=1e-9)
+    # printed is the larger one of realizations and blocks; larger by a few tens of percent at most
+    assert np.all(flux.error >= error * (1 - 1e-9)) and np.all(flux.error < 2.5 * error)
 
 
 def test_a_short_run_of_maxwell_molecules_has_a_series_only(tmp_path):

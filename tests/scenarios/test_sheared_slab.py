@@ -14,7 +14,7 @@ from jdsmc.motion.friction import LayerFlow, friction, peculiar, slowed, slowing
 from jdsmc.running.engine import Engine
 from jdsmc.scenarios import Options, ShearedSlab, UniformShear
 
-from .batches import f32, keys, relative_error, traced, within
+from .batches import f32, keys, relative_error, standard_error, traced, within
 
 SQRT_PI = np.sqrt(np.pi)
 
@@ -186,7 +186,9 @@ def test_viscous_heating_is_all_the_energy(state):
     gained = energy[:, -1] - energy[:, 0]
     assert np.all(gained > 1.0)
     assert relative_error(supplied / gained) < 2e-3
-    assert within(supplied / gained - 1)
+    # of order (a dt)²/12 = 2e-4 by splitting, 7e-5 by the places: -2e-4 in four other seeds
+    off = supplied / gained - 1
+    assert abs(np.mean(off)) < 4.5 * standard_error(off) + 3e-4
 
 
 def test_profiles_tell_the_same_heating():
