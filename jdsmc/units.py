@@ -12,6 +12,9 @@ INITIAL_TEMPERATURE = 0.5
 VISCOSITY_TIME = 1.016 * 5.0 * math.sqrt(math.pi) / 8.0
 """τ_η/τ: eq. (2.18) of Astillero and Santos (2005)."""
 
+COOLING = 2.0 / (3.0 * math.sqrt(math.pi))
+"""ζ0 τ over 1-α²: eq. (2.16) there."""
+
 MAXWELL_CUBED = 32.0 / math.sqrt(math.pi)
 """⟨V12³⟩0 / (T/m)^{3/2}: eq. (2.15) there."""
 

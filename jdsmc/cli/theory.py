@@ -6,6 +6,7 @@ import numpy as np
 
 from ..results.result import check_writable
 from ..theory import boltzmann
+from ..views.page import Block, Page, as_text
 from .arguments import Parser
 from .numbers import numbers
 
@@ -74,14 +75,10 @@ def theory(words: list[str]) -> int:
                 [alpha, *np.ravel([*row.values()])] for alpha, row in zip(alphas, rows, strict=True)
             ]
             csv.writer(file).writerows([head, *table])
-    cells = [["α", *COLUMNS.values()]]
-    cells += [
+    cells = [
         [f"{a:g}", *(shown(*one) for one in row.values())]
         for a, row in zip(alphas, rows, strict=True)
     ]
-    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-    for line in cells:
-        print("  ".join(cell.rjust(width) for cell, width in zip(line, widths, strict=True)))
-    if path is not None:
-        print(f"Table: {path}")
+    notes = [] if path is None else [f"Table: {path}"]
+    print(as_text(Page([Block(["α", *COLUMNS.values()], cells)], notes)))
     return 0

@@ -20,6 +20,7 @@ from ..results.result import Result
 from ..results.sensitivity import Sensitivity
 from ..running.run import run
 from ..scenarios.base import AbstractScene
+from ..stats import spread_to
 from .numbers import chosen_paths
 
 POINTS, DEGREE, LOWER = 7, 4, 2
@@ -174,15 +175,13 @@ def slopes_of(measured: Result, name: str, own, lower) -> dict[str, dict[str, np
         error = np.sqrt(np.tensordot(own**2, errors**2, 1))
         replicas = left_out[observable].transpose("realization", name, ...).values
         replicas = np.tensordot(replicas, own, (1, 0))
-        count = len(replicas)
-        spread = np.sqrt((count - 1) * np.var(replicas, axis=0))
-        with np.errstate(divide="ignore", invalid="ignore"):
-            factor = np.where(spread > 0, error / spread, 1.0)
+        spread = np.sqrt((len(replicas) - 1) * np.var(replicas, axis=0))
+        replicas = spread_to(replicas, spread, error)
         found[observable] = {
             "": value,
             "_error": error,
             "_truncation": np.abs(value - other),
-            "_left_out": value + factor * (replicas - np.mean(replicas, axis=0)),
+            "_left_out": value + replicas - np.mean(replicas, axis=0),
         }
     return found
 

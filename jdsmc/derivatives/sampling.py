@@ -10,18 +10,18 @@ from typing import Any, NamedTuple
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jax import lax
 
-from .. import random
+from ..collisions.sampled import (
+    pairs_per_particle,
+    random_outgoing,
+    random_pairs,
+    sampling_key,
+)
 from ..gases import AbstractGas
-from ..gases.scatter import elastic_outgoing
 from ..measure.polynomials import Powers, Symmetry
 from ..motion.drive import centred, temperature_of
-from ..types import Key, Particles, Scalar, Velocity
+from ..types import Key, Scalar, Velocity
 from .numbers import tangent
-
-AFTER_STEPS = 0xFFFF_FFFF
-"""Folded into the key of a record: no step of it has this number."""
 
 
 class Sampler(NamedTuple):
@@ -71,17 +71,14 @@ class Sampler(NamedTuple):
             "moments": _average(values),
             "second": values @ values[:trial].T / count,
         }
-        return sums | self._of_pairs(random.fold_in(key, AFTER_STEPS), gas, velocity, reference)
+        return sums | self._of_pairs(sampling_key(key), gas, velocity, reference)
 
     def _of_pairs(self, key: Key, gas, velocity: Velocity, reference) -> dict:
         left, right = random_pairs(key, velocity)
         relative = tuple(a - b for a, b in zip(left, right, strict=True))
         speed = jnp.sqrt(sum(g * g for g in relative))
-        words = random.bits(key, speed.shape, random.Stream.OWN)
-        first, second, _ = lax.optimization_barrier(random.three_uniforms(words, speed.dtype))
-        outgoing = both_ways(relative, speed, first, second)
-        basis, n = self.basis, velocity[0].size
-        per_particle = (n - 1) / n / (2.0 * 2.0**0.5)
+        outgoing = random_outgoing(key, relative, speed)
+        basis, per_particle = self.basis, pairs_per_particle(velocity[0].size)
         before = [
             a + b
             for a, b in zip(
@@ -124,28 +121,6 @@ class Sampler(NamedTuple):
             for path in self.paths
         ]
         return jnp.stack(found) if found else jnp.zeros((0, len(self.basis) + 1))
-
-
-def random_pairs(key: Key, velocity: Velocity) -> tuple[Particles, Particles]:
-    """Half of the rows, and as many others shifted by a random number of lanes."""
-    rows, lanes = velocity[0].shape
-    order = random.permutation(key, rows, stream=random.Stream.ROWS)
-    shift = random.bits(key, (1,), stream=random.Stream.SHIFT)[0][0] % jnp.uint32(lanes)
-    half = rows // 2
-    left = tuple(v[order[:half]] for v in velocity)
-    right = tuple(jnp.roll(v[order[half : 2 * half]], shift, axis=1) for v in velocity)
-    return left, right
-
-
-def both_ways(relative: Particles, speed, first, second) -> tuple[Particles, Particles]:
-    """Two outgoing relative velocities of the right distribution: opposite ones for spheres.
-
-    For disks the impact parameters are opposite.
-    """
-    one = elastic_outgoing(relative, speed, first, second)
-    if len(relative) == 2:
-        return one, elastic_outgoing(relative, speed, 1.0 - first, second)
-    return one, tuple(-e for e in one)
 
 
 def _matrix(values: list) -> Any:

@@ -6,13 +6,10 @@ import numpy as np
 
 from ..scenarios.base import AbstractScene, weighted_means
 from ..scenarios.homogeneous import AbstractHomogeneous
-from ..stats import jackknife
+from ..stats import BLOCKS, jackknife, larger_errors
 from .observed import reported_names, slopes, state_of
 from .response import Facts, Generator
 from .samples import Samples
-
-BLOCKS = 4
-"""Blocks of a measurement for the second estimate of its error, as of all that is printed."""
 
 LOWER = 2
 """Degrees between the trial functions and those of the comparison that tells the truncation."""
@@ -46,20 +43,16 @@ def steady_derivatives(
     )
     whole = {name: np.mean(x, axis=0) for name, x in weighted_means(means, weights).items()}
     lower = found(whole, degree - LOWER)
-    larger = error
     if weights.shape[1] >= BLOCKS:
         blocks = _in_blocks(means, weights)
         _, of_blocks, _ = jackknife(blocks, lambda averages: found(averages, degree), axis=0)
-        larger = {name: np.fmax(error[name], of_blocks[name]) for name in value}
+        error, left_out = larger_errors(error, of_blocks, left_out)
     columns = {}
     for name in value:
-        with np.errstate(divide="ignore", invalid="ignore"):
-            factor = np.where(error[name] > 0, larger[name] / error[name], 1.0)
         columns[name] = value[name]
-        columns[f"{name}_error"] = larger[name]
+        columns[f"{name}_error"] = error[name]
         columns[f"{name}_truncation"] = np.abs(value[name] - lower[name])
-        middle = np.mean(left_out[name], axis=0)
-        columns[f"{name}_left_out"] = middle + factor * (left_out[name] - middle)
+        columns[f"{name}_left_out"] = left_out[name]
     return columns
 
 

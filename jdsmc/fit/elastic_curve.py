@@ -18,10 +18,9 @@ import numpy as np
 
 from ..estimate import Estimate, combine
 from ..gases import ElasticHardSpheres
-from ..gases.hard_spheres import COOLING
 from ..results.result import Result
 from ..scenarios import UniformShear
-from ..units import VISCOSITY_TIME
+from ..units import COOLING, VISCOSITY_TIME
 from .targets import nearest
 
 NODES, DEGREE = 8, 4

@@ -12,6 +12,7 @@ from ..estimate import Estimate
 from ..results.result import Result
 from ..running.provenance import specification
 from ..scenarios import AbstractScene
+from ..views.common import named
 from .targets import Target
 
 KEPT = (
@@ -19,8 +20,6 @@ KEPT = (
     *("commit", "backend", "n_particles", "n_realizations", "seed", "time_step", "dtype"),
 )
 """Attributes of the model's run that the result of a calibration keeps."""
-
-SYMBOLS = {"rate_factor": "β", "drag_factor": "d"}
 
 
 class Match(NamedTuple):
@@ -102,7 +101,7 @@ def _facts(model: AbstractScene, name: str) -> dict:
     return {
         "long_name": known.get("meaning", name),
         "units": known.get("unit", "1"),
-        "symbol": SYMBOLS.get(name, name.replace("_", " ")),
+        "symbol": named(name),
     }
 
 

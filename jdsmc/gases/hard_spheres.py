@@ -6,14 +6,11 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from ..fields import choice, number
-from ..units import INITIAL_TEMPERATURE
+from ..units import COOLING, INITIAL_TEMPERATURE
 from .base import AbstractGas
 
 MEAN_RATE = math.sqrt(2.0 / math.pi)
 """Collisions per particle and time of hard spheres over √T: eq. (3.11) of Astillero and Santos."""
-
-COOLING = 2.0 / (3.0 * math.sqrt(math.pi))
-"""ζ0 τ over 1-α²: eq. (2.16)."""
 
 
 def restitution_field():

@@ -21,14 +21,12 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from ..theory.transport import elastic_viscosity
 from ..types import Particles, Scalar, Velocity
 from ..units import CONDUCTIVITY
 
 ORDER = 4
 """Functions of either kind."""
-
-VISCOSITY = 5.0 * np.sqrt(np.pi) / 16.0
-"""η0 at T0 in n λ0 v0, first Sonine approximation of elastic spheres."""
 
 Matrix = Float[Array, "order order"]
 
@@ -143,7 +141,7 @@ def coefficients(means: dict, order: int = ORDER) -> dict[str, Any]:
         "conductivity": plain,
         "modified_conductivity": modified,
         "density_coefficient": 2.0 * (plain - modified),
-        "viscosity": -_first(matrix, overlap, source) / VISCOSITY,
+        "viscosity": -_first(matrix, overlap, source) / elastic_viscosity(),
     }
 
 

@@ -10,8 +10,6 @@ import xarray as xr
 from .. import views
 from ..estimate import Estimate, format_estimate
 
-GROUPS = ("sensitivity", "sensitivity_left_out", "sensitivity_series")
-
 
 class Derivative(Estimate):
     """A derivative: `value`, `error` (one standard error), `truncation` (that of the method).

@@ -6,11 +6,8 @@ import numpy as np
 
 from ..errors import FaultError
 from ..scenarios.base import AbstractScene
-from ..stats import jackknife
+from ..stats import BLOCKS, jackknife, larger_errors
 from .history import History
-
-BLOCKS = 4
-"""Blocks of a measurement for the second estimate of its error."""
 
 
 def against_time(scene: AbstractScene, averages: dict) -> dict:
@@ -52,24 +49,15 @@ def steady_estimates(history: History, point: int, edges) -> tuple[dict, dict, d
 def printed_estimates(history: History, point: int, first: int) -> tuple[dict, dict, dict]:
     """What is printed of one point measured from record `first` on; as `steady_estimates`.
 
-    The error is the larger of two estimates: from realizations, and from blocks of them. Eight
-    realizations know their error to 25%, and once in hundreds of values it is three times too
-    small; blocks have four times as many degrees of freedom, but may be correlated. The values
-    with one realization left out are spread to the same error. A scene of correlations in time cuts
-    blocks of its own.
+    The error is the larger of two (`stats.larger_errors`), from realizations and from blocks of
+    them. A scene of correlations in time cuts blocks of its own.
     """
     value, error, left_out = steady_estimates(history, point, first)
     if history.scenes[point].correlated or history.length - first < 2 * BLOCKS:
         return value, error, left_out
     edges = np.linspace(first, history.length, BLOCKS + 1).astype(int)
     _, of_blocks, _ = steady_estimates(history, point, edges)
-    larger = {name: np.fmax(error[name], of_blocks[name]) for name in value}
-    for name, values in left_out.items():
-        with np.errstate(divide="ignore", invalid="ignore"):
-            factor = np.where(error[name] > 0, larger[name] / error[name], 1.0)
-        middle = np.mean(values, axis=0)
-        left_out[name] = middle + factor * (values - middle)
-    return value, larger, left_out
+    return value, *larger_errors(error, of_blocks, left_out)
 
 
 def steady_changes(history: History, point: int, early: int, start: int) -> tuple[dict, dict, dict]:

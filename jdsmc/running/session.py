@@ -7,9 +7,10 @@ from ..derivatives.request import Request
 from ..derivatives.samples import Samples
 from ..errors import FaultError
 from ..scenarios.options import Options
+from ..stats import BLOCKS
 from . import faults
 from .engine import Engine
-from .estimates import BLOCKS, printed_estimates, steady_changes
+from .estimates import printed_estimates, steady_changes
 from .history import History
 from .host_engine import HostEngine
 from .limits import Limits

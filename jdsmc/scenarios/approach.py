@@ -12,8 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..gases import AbstractGas, ElasticHardSpheres, InelasticHardSpheres
-from ..gases.hard_spheres import COOLING
-from ..units import VISCOSITY_TIME
+from ..units import COOLING, VISCOSITY_TIME
 
 
 class Approach(NamedTuple):

@@ -8,13 +8,16 @@ from typing import ClassVar
 
 import jax.numpy as jnp
 import numpy as np
-from jax import lax
 
-from .. import random
 from ..collisions.meet import Collisions
+from ..collisions.sampled import (
+    pairs_per_particle,
+    random_outgoing,
+    random_pairs,
+    sampling_key,
+)
 from ..fields import derived
 from ..gases import AbstractGas
-from ..gases.scatter import elastic_outgoing
 from ..measure.linear_response import ORDER, Generator, coefficients, generator
 from ..measure.moments import moments
 from ..measure.observable import Observable
@@ -34,8 +37,6 @@ TRUNCATIONS = tuple(
     Observable(f"{one.name}_truncation", f"change of {one.meaning} with the last function")
     for one in COEFFICIENTS
 )
-AFTER_STEPS = 0xFFFF_FFFF
-"""Folded into the key of a record: no step of it has this number."""
 
 
 class ResponseRecord(HomogeneousRecord):
@@ -84,7 +85,7 @@ class CoolingResponse(AbstractHomogeneous):
     def advance(self, key: Key, state: HomogeneousState, options: Options):
         """One record: scale to T0, sample particles and pairs, then make the steps."""
         velocity, _ = held_at(state.velocity, INITIAL_TEMPERATURE)
-        sampled, pairs = moments(velocity), self.pairs(random.fold_in(key, AFTER_STEPS), velocity)
+        sampled, pairs = moments(velocity), self.pairs(sampling_key(key), velocity)
 
         def step(key, velocity, majorant, duration):
             velocity, tally = self.step(key, velocity, majorant, duration, options)
@@ -104,21 +105,15 @@ class CoolingResponse(AbstractHomogeneous):
         return mixed, None
 
     def pairs(self, key: Key, velocity: Velocity) -> Generator:
-        """Half of the rows with as many others, shifted; a direction each, and its opposite."""
-        rows, lanes = velocity[0].shape
-        order = random.permutation(key, rows, stream=random.Stream.ROWS)
-        shift = random.bits(key, (1,), stream=random.Stream.SHIFT)[0][0] % jnp.uint32(lanes)
-        half, count = rows // 2, rows * lanes
-        left = tuple(v[order[:half]] for v in velocity)
-        right = tuple(jnp.roll(v[order[half : 2 * half]], shift, axis=1) for v in velocity)
+        """Sums over pairs, each in a random direction and its opposite."""
+        left, right = random_pairs(key, velocity)
         relative = tuple(a - b for a, b in zip(left, right, strict=True))
         speed = jnp.sqrt(sum(g * g for g in relative))
-        words = random.bits(key, speed.shape, random.Stream.OWN)
-        first, second, _ = lax.optimization_barrier(random.three_uniforms(words, speed.dtype))
-        one = elastic_outgoing(relative, speed, first, second)
-        both = (one, tuple(-e for e in one))
-        transfers = tuple(self.gas.momentum_transfer(relative, outgoing) for outgoing in both)
-        rate = self.gas.rate(speed) * ((count - 1) / count / (2.0 * 2.0**0.5))
+        transfers = tuple(
+            self.gas.momentum_transfer(relative, outgoing)
+            for outgoing in random_outgoing(key, relative, speed)
+        )
+        rate = self.gas.rate(speed) * pairs_per_particle(velocity[0].size)
         return generator(velocity, left, right, rate, transfers)
 
     def averages(self, record: ResponseRecord) -> dict[str, np.ndarray]:

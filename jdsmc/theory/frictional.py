@@ -18,11 +18,11 @@ alpha^2)/beta alone, and beta kappa' is that of elastic spheres. First Sonine ap
 """
 
 from functools import lru_cache
-from math import pi, sqrt
 from typing import Any
 
 from scipy.optimize import brentq
 
+from ..units import COOLING
 from .boltzmann import navier_stokes
 from .chapman_enskog import heat_flux_response, stress_response
 from .cooling_expansion import CoolingExpansion, solve_cooling
@@ -50,12 +50,12 @@ def coefficients(drag_over_rate: float) -> dict[str, float]:
 
 
 def _heat(x: float) -> dict[str, float]:
-    found = heat_flux_response(1.0, _elastic(), 2.0 * x / (3.0 * sqrt(pi)))
+    found = heat_flux_response(1.0, _elastic(), COOLING * x)
     return {name: float(found[name]) for name in COEFFICIENTS[:3]}
 
 
 def _viscosity(x: float) -> float:
-    return stress_response(1.0, _elastic(), 2.0 * x / (3.0 * sqrt(pi)))
+    return stress_response(1.0, _elastic(), COOLING * x)
 
 
 def rate_factor(restitution: float, name: str) -> float:

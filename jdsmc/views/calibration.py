@@ -2,15 +2,13 @@
 
 import numpy as np
 
+from ..gases.hard_spheres import RATE_FACTORS
 from . import common, generic, pictures
 from .page import Page
 
 NEEDS: set[str] = {"rate_factor"}
-CHOICES = {
-    "(1+α)/2": (lambda a: (1 + a) / 2, "k:"),
-    "(1+α)(2+α)/6": (lambda a: (1 + a) * (2 + a) / 6, "k--"),
-}
-"""β of Astillero and Santos (2005), eq. (2.21) and section VI."""
+CHOICES = {"(1+α)/2": ("linear", "k:"), "(1+α)(2+α)/6": ("viscosity", "k--")}
+"""β of Astillero and Santos (2005), by their names in `RATE_FACTORS`."""
 
 
 def page(result) -> Page:
@@ -29,6 +27,7 @@ def draw(result):
         pictures.against_sweep(panel, steady, dims, "restitution", name)
     alpha = steady["restitution"].values
     fine = np.linspace(np.min(alpha), np.max(alpha), 100)
-    for label, (function, look) in CHOICES.items():
-        panels[names.index("rate_factor")].plot(fine, function(fine), look, lw=1.2, label=label)
+    for label, (name, look) in CHOICES.items():
+        panel = panels[names.index("rate_factor")]
+        panel.plot(fine, RATE_FACTORS[name](fine), look, lw=1.2, label=label)
     return pictures.finish(figure, panels, common.title(result))

@@ -150,7 +150,7 @@ def title(result, what: str = "") -> str:
     for key, value in attrs.items():
         name = key.removeprefix("parameter_")
         if name != key and np.ndim(value) == 0:
-            facts.append(_with(f"{_named(name)} = {short(value)}", UNITS.get(name, "")))
+            facts.append(_with(f"{named(name)} = {short(value)}", UNITS.get(name, "")))
         name = key.removeprefix("option_")
         if name != key and isinstance(value, str) and value != "None":
             facts.append(f"{name.replace('_', ' ')} {value.replace('_', ' ')}")
@@ -158,7 +158,8 @@ def title(result, what: str = "") -> str:
     return ", ".join([*facts, f"{attrs.get('n_realizations')} realizations"])
 
 
-def _named(name: str) -> str:
+def named(name: str) -> str:
+    """The symbol of a number of a scene or gas, or its name in words."""
     return SYMBOLS.get(name, name.replace("_", " "))
 
 

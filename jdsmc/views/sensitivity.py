@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from ..estimate import format_estimate
+from . import common
 from .figure import Picture
 from .page import Block, Page
 
@@ -93,8 +94,8 @@ def draw(found):
         panel.barh(rows, value, color="0.88", height=0.7)
         _bars(panel, value, rows, error, truncation, sideways=True)
         panel.set_xscale("symlog", linthresh=LINEAR)
-        panel.set_xlabel(f"∂/∂ {_symbol(data, parameter)}")
-    panels[0].set_yticks(rows, [_label(data, name) for name in names])
+        panel.set_xlabel(f"∂/∂ {common.named(parameter)}")
+    panels[0].set_yticks(rows, [common.symbol(data, name) for name in names])
     panels[0].legend(fontsize="small")
     figure.tight_layout()
     return figure
@@ -115,7 +116,7 @@ def _against(data: xr.Dataset, dim: str, names: list[str], parameters):
         )
         panel.plot(x, value, color="0.7", lw=1.0)
         _bars(panel, x, value, error, truncation, sideways=False)
-        panel.set_ylabel(f"∂({_label(data, name)})/∂ {_symbol(data, parameter)}")
+        panel.set_ylabel(f"∂({common.symbol(data, name)})/∂ {common.named(parameter)}")
         panel.set_xlabel(dim.replace("_", " "))
     for panel in panels[len(shown) :]:
         panel.set_visible(False)
@@ -136,13 +137,3 @@ def _bars(panel, x, y, error, truncation, *, sideways: bool) -> None:
     style = {"fmt": "none", "capsize": 3.0}
     panel.errorbar(x, y, **whole, **style, color=TRUNCATION, lw=1.2, label="error and truncation")
     panel.errorbar(x, y, **own, fmt="o", ms=3.0, color=ERROR, lw=2.5, label="one standard error")
-
-
-def _label(data: xr.Dataset, name: str) -> str:
-    return str(data[name].attrs.get("symbol") or name.replace("_", " "))
-
-
-def _symbol(data: xr.Dataset, parameter: str) -> str:
-    return {"restitution": "α", "shear_rate": "a", "rate_factor": "β"}.get(
-        parameter, parameter.replace("_", " ")
-    )

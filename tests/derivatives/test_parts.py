@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from jdsmc import ElasticHardSpheres, InelasticHardDisks, InelasticHardSpheres, random, sweep
+from jdsmc.collisions.sampled import both_ways, random_pairs
 from jdsmc.derivatives.numbers import slope
 from jdsmc.derivatives.samples import Samples
-from jdsmc.derivatives.sampling import Sampler, both_ways, random_pairs
+from jdsmc.derivatives.sampling import Sampler
 from jdsmc.measure.heat import heat_moments
 from jdsmc.measure.moments import moments
 from jdsmc.measure.polynomials import AXIAL, ISOTROPIC, SHEARED, Averages

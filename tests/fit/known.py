@@ -7,10 +7,9 @@ import xarray as xr
 
 from jdsmc import ElasticHardSpheres, Estimate, Result
 from jdsmc.fit import elastic_sweep
-from jdsmc.gases.hard_spheres import COOLING
 from jdsmc.running.provenance import specification
 from jdsmc.scenarios import UniformShear
-from jdsmc.units import VISCOSITY_TIME
+from jdsmc.units import COOLING, VISCOSITY_TIME
 
 REALIZATIONS = 8
 

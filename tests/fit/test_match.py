@@ -7,9 +7,8 @@ import jdsmc
 from jdsmc import ElasticHardSpheres, Estimate
 from jdsmc.fit import calibrate
 from jdsmc.fit.elastic_curve import Curve
-from jdsmc.gases.hard_spheres import COOLING
 from jdsmc.scenarios import UniformShear
-from jdsmc.units import VISCOSITY_TIME
+from jdsmc.units import COOLING, VISCOSITY_TIME
 
 from .known import estimates, kinetic, measured, sweep
 
