@@ -50,4 +50,4 @@ def _options(size, number: int, duration: float) -> dict:
     options = {"n_particles": number, "n_realizations": 8}
     if duration:
         return options | {"duration": float(duration)}
-    return options | {"observable": SOUGHT, "rtol": size.rtol, "budget": float(size.budget)}
+    return options | {"observable": SOUGHT, "rtol": tuple(size.rtol), "budget": float(size.budget)}

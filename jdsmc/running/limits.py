@@ -35,12 +35,10 @@ class Limits:
         for name, value in (("duration", duration), ("collisions", collisions), ("budget", budget)):
             if value is not None:
                 check.scalar(name, value, 0.0, np.inf, high_included=False)
-        if rtol is not None:
-            check.scalar("rtol", rtol, 0.0, 1.0)
         self.duration, self.collisions, self.records = duration, collisions, records
-        self.rtol = float(scene.default_rtol if rtol is None else rtol)
         self.budget = float(budget)
         self.observables = _names(scene, observable)
+        self.rtol = _shares(scene.default_rtol if rtol is None else rtol, self.observables)
         self.fixed = duration is not None or collisions is not None
         self.monitored = scene.monitored
         self.approaches = [s.approach(options) if s.has_steady_state() else UNKNOWN for s in scenes]
@@ -56,6 +54,11 @@ class Limits:
     def named(self) -> str:
         """The observables whose precision is asked."""
         return ", ".join(self.observables)
+
+    @property
+    def asked(self) -> str:
+        """The precision that is asked of each, or once if of all the same."""
+        return ", ".join(f"{share:g}" for share in dict.fromkeys(self.rtol.values()))
 
     def check_warm_up(self) -> None:
         """Raise NotSteadyError if the warm-up alone takes more than the budget."""
@@ -78,9 +81,23 @@ class Limits:
 
     def attributes(self) -> dict:
         """What was asked for, as attributes of the result."""
-        asked = {"observable": self.named, "rtol": self.rtol, "budget": self.budget}
+        asked = {"observable": self.named, "budget": self.budget}
+        shares = tuple(dict.fromkeys(self.rtol.values()))
+        asked["rtol"] = shares[0] if len(shares) == 1 else tuple(self.rtol.values())
         times = {"duration": self.duration, "collisions": self.collisions}
         return asked | {name: float(t) for name, t in times.items() if t is not None}
+
+
+def _shares(rtol, names: tuple[str, ...]) -> dict[str, float]:
+    """The relative error asked of each observable; ValueError if there are more or fewer."""
+    shares = (rtol,) * len(names) if np.ndim(rtol) == 0 else tuple(rtol)
+    if len(shares) != len(names):
+        raise ValueError(
+            f"rtol must be one number, or one for each observable ({', '.join(names)}), got {rtol}."
+        )
+    for share in shares:
+        check.scalar("rtol", share, 0.0, 1.0)
+    return {name: float(share) for name, share in zip(names, shares, strict=True)}
 
 
 def _names(scene: AbstractScene, observable) -> tuple[str, ...]:

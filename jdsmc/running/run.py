@@ -29,7 +29,7 @@ def run(
     duration: float | None = None,
     collisions: float | None = None,
     observable: str | tuple[str, ...] | None = None,
-    rtol: float | None = None,
+    rtol: float | tuple[float, ...] | None = None,
     budget: float = 5_000.0,
     time_step: float | None = None,
     splitting: Literal["strang", "lie"] = "strang",
@@ -54,8 +54,8 @@ def run(
         seed: of all random numbers; the same seed gives the same result.
         duration: time to simulate (τ0).
         collisions: time to simulate, in accepted collisions per particle.
-        observable, rtol: the precision asked for; by default of the scene's main observables, and
-            0.001 for most scenes.
+        observable, rtol: the precision asked for, one number or one for each observable; by
+            default of the scene's main observables, and 0.001 for most scenes.
         budget: most collisions per particle to spend.
         time_step: largest time step in (0, 1], 0.05 for most scenes, as a fraction of τ(T) and of
             the scene's own times (1/shear_rate) in homogeneous gases and sheared slabs, of τ0 in a
@@ -196,7 +196,7 @@ def resume(
     duration: float | None = None,
     collisions: float | None = None,
     observable: str | tuple[str, ...] | None = None,
-    rtol: float | None = None,
+    rtol: float | tuple[float, ...] | None = None,
     budget: float = 5_000.0,
     progress: bool = True,
 ) -> Result:

@@ -45,7 +45,7 @@ class Session:
         drift = None if scenes[0].correlated else steady_changes
         self.correlated = scenes[0].correlated
         self.tracker = tracker_for(limits.approaches, scenes[0].monitored, drift)
-        self.precision = np.inf
+        self.precision = self.share = np.inf
         self.failed = False
         self._settled = np.zeros(len(scenes), bool)
         self._asked_at = -1
@@ -80,7 +80,8 @@ class Session:
         """Take other limits; measurements start where they did before anything was settled."""
         self.limits = limits
         self.tracker.start[:] = start
-        self.precision, self.failed = np.inf, False
+        self.precision = self.share = np.inf
+        self.failed = False
         self._asked_at, self._next_look = -1, 0.0
 
     def advance(self) -> None:
@@ -118,7 +119,7 @@ class Session:
         if self.tracker.all_measuring and self.spent >= self._next_look:
             self._next_look = (1.2 if self.correlated else 1.05) * self.spent
             if self._precise() and self.is_settled() and self._precise():
-                return f"{limits.named} is known to {self.precision:.2g} (asked {limits.rtol:g})"
+                return f"{limits.named} is known to {self.precision:.2g} (asked {limits.asked})"
         if limits.records is not None and self.history.length >= limits.records:
             self._look()
             return (
@@ -132,11 +133,11 @@ class Session:
         if self.is_settled():
             self._look()
         else:
-            self.precision = np.inf
+            self.precision = self.share = np.inf
         if np.isfinite(self.precision):
             return (
                 f"the budget of {limits.budget:g} collisions per particle ended: {limits.named} is "
-                f"known to {self.precision:.2g}, asked {limits.rtol:g}"
+                f"known to {self.precision:.2g}, asked {limits.asked}"
             )
         self.failed = True
         return (
@@ -161,7 +162,7 @@ class Session:
         if not self._long_enough():
             return False
         self._look()
-        return self.precision <= self.limits.rtol
+        return self.share <= 1.0
 
     def _long_enough(self) -> bool:
         """True if no scene finds the measurement too short for error bars."""
@@ -172,13 +173,15 @@ class Session:
         )
 
     def _look(self) -> None:
-        """Relative error of the observables at the worst point."""
+        """Relative error at the worst point: the largest, and the largest in units of `rtol`."""
         if self.tracker.all_measuring:
-            points = range(len(self.tracker.start))
-            self.precision = max(self._relative_error(point) for point in points)
+            errors = [self._relative_errors(point) for point in range(len(self.tracker.start))]
+            rtol = self.limits.rtol
+            self.precision = max(max(point.values()) for point in errors)
+            self.share = max(point[name] / rtol[name] for point in errors for name in rtol)
 
-    def _relative_error(self, point: int) -> float:
-        """The largest relative error of the observables asked for, as it would be printed.
+    def _relative_errors(self, point: int) -> dict[str, float]:
+        """The relative errors of the observables asked for, as they would be printed.
 
         The larger of two: a run that stops when one estimate happens to be small would print
         errors that are too small.
@@ -186,11 +189,12 @@ class Session:
         first = int(self.tracker.start[point])
         least = 1 if self.correlated or self.limits.records is not None else 2 * BLOCKS
         if self.history.length - first < least:
-            return np.inf
+            return dict.fromkeys(self.limits.observables, np.inf)
         value, error, _ = printed_estimates(self.history, point, first)
-        return max(
-            float(np.max(error[name] / np.abs(value[name]))) for name in self.limits.observables
-        )
+        return {
+            name: float(np.max(error[name] / np.abs(value[name])))
+            for name in self.limits.observables
+        }
 
     def progress(self) -> float:
         """Share of the work done, as far as it can be known."""
@@ -202,5 +206,5 @@ class Session:
         done = self.spent / limits.budget
         if limits.records is not None:
             done = self.history.length / limits.records
-        precise = (limits.rtol / self.precision) ** 2 if np.isfinite(self.precision) else 0.0
+        precise = self.share**-2 if np.isfinite(self.share) else 0.0
         return min(1.0, max(precise, done))

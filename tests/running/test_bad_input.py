@@ -25,6 +25,7 @@ from .small import assert_same, scene, simulate
         ({"duration": 1.0, "collisions": 1.0}, "duration or collisions, not both"),
         ({"rtol": 0.0}, r"rtol = 0 .*\(0, 1\]"),
         ({"rtol": 1.5}, "rtol = 1.5"),
+        ({"rtol": (0.1, 0.2)}, r"one for each observable \(shear_stress\)"),
         ({"budget": 0.0}, "budget = 0"),
         ({"time_step": 2.0}, "time_step = 2"),
         ({"observable": "viscosity"}, "observable = 'viscosity' .*reduced_viscosity"),
