@@ -1,0 +1,1 @@
+"""Files that are whole or refused: written aside, sealed by a digest, replaced in one step."""
