@@ -14,7 +14,9 @@ from .gases import (
 )
 from .measure.observable import Observable
 from .results import Derivative, Result, Sensitivity, load
-from .running.run import resume, run
+from .running.merge import merge
+from .running.resume import resume
+from .running.run import run
 
 __all__ = [
     "AbstractGas",
@@ -34,6 +36,7 @@ __all__ = [
     "count",
     "fit",
     "load",
+    "merge",
     "number",
     "random",
     "resume",

@@ -65,6 +65,16 @@ def find_scene(name: str) -> type[AbstractScene]:
     return known[name]
 
 
+def find_class(name: str) -> type:
+    """A scene or gas `module:Class` of a user's own; ValueError if it is neither."""
+    if ":" not in name:
+        raise ValueError(f"class = {name!r} must be module:Class.")
+    try:
+        return _imported(name, AbstractScene)
+    except ValueError:
+        return _imported(name, AbstractGas)
+
+
 def find_gases(text: str, can: list[str]) -> list[Gas]:
     """The gases of a list of names; ValueError for one that is unknown or named twice.
 

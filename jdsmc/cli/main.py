@@ -10,6 +10,8 @@ from . import catalogue
 from .arguments import Parser
 from .fit import fit
 from .keep import check_picture, draw, picture_of, show
+from .merge import merge
+from .resume import resume
 from .simulate import simulate
 from .spelling import never_fail_to_print
 from .theory import parser as theory_parser
@@ -18,6 +20,8 @@ from .theory import theory
 COMMANDS = {
     "run": ("SCENE [options]", "simulate one gas: steady values with error bars"),
     "sweep": ("SCENE [options]", "simulate every combination of the given numbers and gases"),
+    "resume": ("FILE [options]", "go on with a run that --checkpoint kept"),
+    "merge": ("FILES --out FILE", "realizations, or points of a sweep, of several runs as one"),
     "fit": ("beta [options]", "the rate factor of an elastic gas that mimics an inelastic one"),
     "show": ("FILE", "print the table of a result file"),
     "plot": ("FILE [--out PICTURE]", "draw a result file"),
@@ -74,8 +78,9 @@ def command(words: list[str]) -> int:
     if first == "theory" and HELP & set(rest):
         print(theory_parser().format_help(), end="")
         return 0
-    if first in ("fit", "theory"):
-        return fit(rest) if first == "fit" else theory(rest)
+    others = {"fit": fit, "theory": theory, "resume": resume, "merge": merge}
+    if first in others:
+        return others[first](rest)
     near = catalogue.did_you_mean(first, COMMANDS)
     raise ValueError(f"there is no command {first!r}{near}; there are {', '.join(COMMANDS)}.")
 

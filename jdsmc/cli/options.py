@@ -183,6 +183,8 @@ def run_options(taken: set[str], default_rtol: float, particles: str) -> list[Op
         ("dtype", "dtype", partial(chosen, choices=("float32", "float64")),
          "precision of the velocities: float32 or float64"),
         ("steps-per-record", "steps_per_record", whole, "time steps between two measurements"),
+        ("checkpoint", "checkpoint", text, "file that keeps the run; `jdsmc resume FILE` goes on"),
+        ("every", "every", one_number, "seconds between two writings of that file"),
     )  # fmt: skip
     return [
         Option(flag, name, meaning, read, usual[name], _metavar(read))
@@ -192,4 +194,4 @@ def run_options(taken: set[str], default_rtol: float, particles: str) -> list[Op
 
 
 def _metavar(read) -> str:
-    return "NUMBER" if read in (whole, one_number) else "NAME"
+    return "NUMBER" if read in (whole, one_number) else "FILE" if read is text else "NAME"

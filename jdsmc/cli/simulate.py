@@ -24,6 +24,8 @@ def simulate(command: str, name: str, words: list[str]) -> int:
     several = command == "sweep"
     asked = arguments.read(several)
     check_files(asked.out, asked.plot)
+    if asked.run.get("checkpoint") is not None and len(asked.scenes) > 1:
+        raise ValueError("--checkpoint keeps the run of one gas; give one --gas.")
     if asked.run.get("dtype") == "float64":
         jax.config.update("jax_enable_x64", True)
     results: dict[str, Result] = {}

@@ -98,9 +98,7 @@ def _place(aside: Path, path: Path) -> None:
     try:
         os.link(aside, path)
     except FileExistsError:
-        raise FileExistsError(
-            f"{path} exists; choose another name or delete it first."
-        ) from None
+        raise FileExistsError(f"{path} exists; choose another name or delete it first.") from None
     except OSError:  # a disk without links
         with path.open("xb"):
             pass

@@ -1,18 +1,17 @@
 """Labelled results: steady values, time series and velocity distributions, with error bars."""
 
 import json
-import sys
 from collections.abc import Iterator
 from html import escape
 from pathlib import Path
 from typing import Any
 
-import equinox as eqx
 import numpy as np
 import xarray as xr
 
 from .. import views
 from ..estimate import Estimate
+from .rebuild import rebuilt
 from .sensitivity import Sensitivity
 
 
@@ -158,7 +157,7 @@ class Result:
         """
         if "specification" not in self._tree.attrs:
             raise ValueError("only the whole of a sweep knows its scene; this is a part or a join.")
-        return _built(json.loads(self._tree.attrs["specification"]), classes)
+        return rebuilt(json.loads(self._tree.attrs["specification"]), classes)
 
     def save(self, path: str | Path, overwrite: bool = False) -> Path:
         """Write a NetCDF4 (HDF5) file; raises FileExistsError rather than replace one."""
@@ -182,35 +181,6 @@ class Result:
 
     def _repr_html_(self) -> str:
         return f"<b>{escape(str(self.attrs.get('scene', '')))}</b>{views.html(self)}"
-
-
-def _built(data, classes: tuple[type, ...]):
-    """A scene or gas from plain data."""
-    if isinstance(data, list):
-        return (
-            np.asarray(data, dtype=float) if _numeric(data) else [_built(x, classes) for x in data]
-        )
-    if not (isinstance(data, dict) and set(data) == {"class", "fields"}):
-        return data
-    module, _, name = data["class"].partition(":")
-    known = {f"{one.__module__}:{one.__qualname__}": one for one in classes}
-    known |= {one.__qualname__: one for one in classes}
-    found = known.get(data["class"]) or known.get(name)
-    if found is None:
-        found = sys.modules.get(module)
-        for part in name.split("."):
-            found = vars(found).get(part) if found is not None else None
-    # nothing else may be called: a file could name any class there is
-    if not (isinstance(found, type) and issubclass(found, eqx.Module)):
-        raise ValueError(
-            f"the class {name} of {module} is not imported; pass it: scene({name}). It must be "
-            "one of a scene or gas."
-        )
-    return found(**{field: _built(value, classes) for field, value in data["fields"].items()})
-
-
-def _numeric(data: list) -> bool:
-    return all(isinstance(x, int | float) or (isinstance(x, list) and _numeric(x)) for x in data)
 
 
 def check_writable(path: str | Path, overwrite: bool = False) -> Path:

@@ -11,7 +11,7 @@ from ..results.result import Result
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
 from ..stats import jackknife
-from .estimates import against_time, printed_estimates
+from .estimates import against_time, averages_to_print, estimates_of
 from .history import History
 from .provenance import provenance, run_name
 from .session import Session
@@ -119,8 +119,12 @@ def _steady(scene, labels, session, settled, attrs: dict) -> tuple[dict, dict]:
     """Groups of steady values, and the attributes with remarks."""
     history, starts = session.history, session.tracker.start
     points = range(len(history.scenes))
+    averages = [
+        averages_to_print(history, p, int(starts[p])) if settled[p] else None for p in points
+    ]
     estimates = [
-        printed_estimates(history, p, int(starts[p])) if settled[p] else None for p in points
+        one and estimates_of(history.scenes[p], *one)
+        for p, one in zip(points, averages, strict=True)
     ]
     columns = {}
     for kind, suffix in enumerate(("", "_error")):
@@ -132,13 +136,20 @@ def _steady(scene, labels, session, settled, attrs: dict) -> tuple[dict, dict]:
     groups = {"/": labels.dataset(columns, (*scene.reports, *STEADY_FROM))}
     left_out = _each(_as_many([one and one[2] for one in estimates]))
     groups["/left_out"] = labels.dataset(left_out, scene.reports, ("realization",))
-    means = [history.point(p, starts[p], history.length) if settled[p] else None for p in points]
-    sums, dims = _each(means), {one.name: one for one in scene.reports}
+    sums, dims = (
+        _each([one and one[0] for one in averages]),
+        {one.name: one for one in scene.reports},
+    )
     groups["/realizations"] = labels.dataset(
         {name: x for name, x in sums.items() if not np.iscomplexobj(x)},
         [dims[n]._replace(meaning=n) for n in sums if n in dims],
         ("realization",),
     )
+    if not scene.correlated:  # what `merge` needs
+        groups["/averages"] = labels.dataset(sums, (), ("realization",))
+        parts = [one and one[1] for one in averages]
+        if all(part for part, there in zip(parts, settled, strict=True) if there):
+            groups["/blocks"] = labels.dataset(_each(parts), (), ("part",))
     if scene.sampled:
         records = session.options.records
         groups["/distribution"] = _distribution(scene, labels, history, starts, settled, records)

@@ -33,31 +33,39 @@ def _complete(scene: AbstractScene, found: dict, wanted: list[str]) -> dict:
     return {name: np.asarray(found[name], dtype=float) for name in wanted}
 
 
-def steady_estimates(history: History, point: int, edges) -> tuple[dict, dict, dict]:
-    """Values, standard errors and leave-one-out values of all observables of one point.
+def averages_to_print(history: History, point: int, first: int) -> tuple[dict, dict | None]:
+    """Averages of one point from record `first` on: of each realization, and of blocks of them.
 
-    `edges` is the record to start from, or an array of them: each block between two of them then
-    counts as a realization.
+    Arrays (realizations, ...) and (blocks x realizations, ...). None for the blocks of a scene of
+    correlations in time, which cuts its own, and of what is too short to cut.
     """
-    edges = [edges, history.length] if np.ndim(edges) == 0 else edges
-    blocks = [history.point(point, a, b) for a, b in itertools.pairwise(edges)]
-    means = {name: np.concatenate([b[name] for b in blocks]) for name in blocks[0]}
-    scene = history.scenes[point]
-    return jackknife(means, lambda averages: reported(scene, averages), axis=0)
+    whole = history.point(point, first, history.length)
+    if history.scenes[point].correlated or history.length - first < 2 * BLOCKS:
+        return whole, None
+    edges = np.linspace(first, history.length, BLOCKS + 1).astype(int)
+    parts = [history.point(point, a, b) for a, b in itertools.pairwise(edges)]
+    return whole, {name: np.concatenate([part[name] for part in parts]) for name in whole}
+
+
+def estimates_of(scene: AbstractScene, means: dict, blocks: dict | None) -> tuple[dict, dict, dict]:
+    """Values, standard errors and leave-one-out values of all observables, from averages.
+
+    The error is the larger of two (`stats.larger_errors`), from realizations and from blocks.
+    """
+
+    def observables(averages):
+        return reported(scene, averages)
+
+    value, error, left_out = jackknife(means, observables, axis=0)
+    if blocks is None:
+        return value, error, left_out
+    _, of_blocks, _ = jackknife(blocks, observables, axis=0)
+    return value, *larger_errors(error, of_blocks, left_out)
 
 
 def printed_estimates(history: History, point: int, first: int) -> tuple[dict, dict, dict]:
-    """What is printed of one point measured from record `first` on; as `steady_estimates`.
-
-    The error is the larger of two (`stats.larger_errors`), from realizations and from blocks of
-    them. A scene of correlations in time cuts blocks of its own.
-    """
-    value, error, left_out = steady_estimates(history, point, first)
-    if history.scenes[point].correlated or history.length - first < 2 * BLOCKS:
-        return value, error, left_out
-    edges = np.linspace(first, history.length, BLOCKS + 1).astype(int)
-    _, of_blocks, _ = steady_estimates(history, point, edges)
-    return value, *larger_errors(error, of_blocks, left_out)
+    """What is printed of one point measured from record `first` on; as `estimates_of`."""
+    return estimates_of(history.scenes[point], *averages_to_print(history, point, first))
 
 
 def steady_changes(history: History, point: int, early: int, start: int) -> tuple[dict, dict, dict]:

@@ -5,6 +5,7 @@ import numpy as np
 from ..errors import FaultError
 from ..scenarios.base import AbstractScene, weighted_means
 from .batch import point_of
+from .growing import Growing
 
 CLOCKS = ("elapsed", "accepted", "energy_lost", "time", "collisions", "plain_time")
 
@@ -20,10 +21,13 @@ class History:
         self.n_particles = n_particles
         self.steps_per_record = steps_per_record
         self.total_excess = 0.0
-        self.length = 0  # records so far
-        self._samples: list = []
-        self._columns: dict[str, np.ndarray] = {}
+        self._columns, self._samples = Growing(), Growing()
         self._totals: dict[str, np.ndarray] = {}
+
+    @property
+    def length(self) -> int:
+        """Records so far."""
+        return self._columns.length
 
     def append(self, record, sample) -> None:
         """Add the records and the sample of one chunk."""
@@ -37,28 +41,27 @@ class History:
         }
         new["time"] = self._continued("time", new.get("plain_time", new["elapsed"]))
         new["collisions"] = self._continued("collisions", new["accepted"])
-        for name, values in new.items():
-            self._store(name, values)
-        self.length += record.elapsed.shape[2]
-        self._samples.append(sample)
+        self._columns.append(new)
+        if sample is not None:
+            fields = sample.__dataclass_fields__
+            self._samples.append({name: getattr(sample, name)[:, :, None] for name in fields})
         self.total_excess += float(np.sum(tally.excess))
 
     def state(self) -> dict:
         """All of it as a pytree of arrays and numbers; `take` puts it back."""
         return {
-            "columns": {name: self[name] for name in self._columns},
+            "columns": self._columns.state(),
             "totals": dict(self._totals),
-            "samples": list(self._samples),
-            "length": self.length,
+            "samples": self._samples.state(),
             "total_excess": self.total_excess,
         }
 
     def take(self, state: dict) -> None:
         """Become the history that gave this `state`."""
-        self.length, self.total_excess = int(state["length"]), float(state["total_excess"])
-        self._columns = {name: np.array(values) for name, values in state["columns"].items()}
+        self.total_excess = float(state["total_excess"])
+        self._columns.take(state["columns"])
         self._totals = dict(state["totals"])
-        self._samples = list(state["samples"])
+        self._samples.take(state["samples"])
 
     def _continued(self, name: str, increments: np.ndarray) -> np.ndarray:
         """Running total before each record; the total so far is kept from chunk to chunk."""
@@ -67,20 +70,8 @@ class History:
         self._totals[name] = total[..., -1]
         return total - increments
 
-    def _store(self, name: str, values: np.ndarray) -> None:
-        """Write into a column whose capacity doubles, so that long runs cost in proportion."""
-        first, last = self.length, self.length + values.shape[2]
-        column = self._columns.get(
-            name, np.empty((*values.shape[:2], 0, *values.shape[3:]), values.dtype)
-        )
-        if last > column.shape[2]:
-            room = np.empty((*values.shape[:2], 2 * last, *values.shape[3:]), values.dtype)
-            room[:, :, :first] = column[:, :, :first]
-            self._columns[name] = column = room
-        column[:, :, first:last] = values
-
     def __getitem__(self, name: str) -> np.ndarray:
-        return self._columns[name][:, :, : self.length]
+        return self._columns[name]
 
     @property
     def names(self) -> list[str]:
@@ -132,11 +123,10 @@ class History:
         self, point: int, first: int | np.integer, records_per_chunk: int
     ) -> dict[str, np.ndarray]:
         """Chunk samples of one point taken after record `first`: means (realizations, bins)."""
-        kept = self._samples[-(-first // records_per_chunk) :]
-        if not kept or kept[0] is None:
+        chunk = -(-first // records_per_chunk)
+        if self._samples.length <= chunk:
             return {}
-        names = kept[0].__dataclass_fields__
-        return {n: np.mean([getattr(s, n)[point] for s in kept], axis=0) for n in names}
+        return {n: np.mean(self._samples[n][point, :, chunk:], axis=1) for n in self._samples}
 
     def mean_collisions(self) -> np.ndarray:
         """Accepted collisions per particle so far, (points,)."""

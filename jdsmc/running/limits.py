@@ -30,6 +30,8 @@ class Limits:
         records=None,
     ):
         scene = scenes[0]
+        self.given = {"duration": duration, "collisions": collisions, "observable": observable}
+        self.given |= {"rtol": rtol, "budget": budget, "records": records}
         if duration is not None and collisions is not None:
             raise ValueError("give duration or collisions, not both.")
         for name, value in (("duration", duration), ("collisions", collisions), ("budget", budget)):

@@ -7,6 +7,9 @@ import threading
 import numpy as np
 from tqdm import tqdm
 
+SIGNALS = (signal.SIGINT, signal.SIGTERM)
+"""Of Ctrl-C, and of a scheduler whose time is up."""
+
 
 class Bar:
     """A progress bar in percent that tells the phase, or nothing."""
@@ -44,22 +47,21 @@ def progress_bar(show: bool):
 
 @contextlib.contextmanager
 def interruptible():
-    """An event set by Ctrl-C in place of an exception; a second Ctrl-C interrupts as usual."""
+    """An event set by Ctrl-C or SIGTERM in place of an end; a second one ends as usual."""
     event = threading.Event()
-    if threading.current_thread() is not threading.main_thread():
-        yield event
-        return
-    usual = signal.getsignal(signal.SIGINT)
-    if usual is None:  # set from C: it could not be put back
-        yield event
-        return
+    usual = {}
+    if threading.current_thread() is threading.main_thread():
+        handlers = {number: signal.getsignal(number) for number in SIGNALS}
+        usual = {n: h for n, h in handlers.items() if h is not None}  # None: set from C
 
-    def on_interrupt(number, frame):
+    def on_signal(number, frame):
         event.set()
-        signal.signal(signal.SIGINT, usual)
+        signal.signal(number, usual[number])
 
-    signal.signal(signal.SIGINT, on_interrupt)
+    for number in usual:
+        signal.signal(number, on_signal)
     try:
         yield event
     finally:
-        signal.signal(signal.SIGINT, usual)
+        for number, handler in usual.items():
+            signal.signal(number, handler)

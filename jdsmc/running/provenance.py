@@ -1,10 +1,12 @@
 """What a file tells of the run that made it, so that the run can be made again."""
 
+import contextlib
 import dataclasses
 import hashlib
 import json
 import platform
 import subprocess
+from functools import cache
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -63,6 +65,8 @@ def specification(module: Any) -> Any:
         return np.asarray(module).tolist()
     if isinstance(module, tuple | list):
         return [specification(one) for one in module]
+    if isinstance(module, dict):
+        return {name: specification(one) for name, one in module.items()}
     return module
 
 
@@ -78,6 +82,17 @@ def version() -> str:
         return metadata.version("jdsmc")
     except metadata.PackageNotFoundError:
         return "unknown"
+
+
+@cache
+def processor() -> str:
+    """A word for the kind of processor: the same program rounds differently on another kind."""
+    kind = platform.machine()
+    with contextlib.suppress(OSError):
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+        told = next((line for line in lines if line.startswith(("flags", "Features"))), "")
+        kind += "-" + hashlib.blake2b(told.encode(), digest_size=4).hexdigest()
+    return kind
 
 
 def commit() -> str:

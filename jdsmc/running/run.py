@@ -1,19 +1,19 @@
 """Run a scene: until steady, then until precise; or for a given time."""
 
-from typing import Literal, NamedTuple
+from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
 from .. import check, sweep
 from ..derivatives.request import Request, requested
-from ..errors import FaultError, NotSteadyError
 from ..results.result import Result
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
 from ..types import Whole
-from .assemble import assemble
+from .checkpoint import EVERY, Keeper
+from .going import go_on
 from .limits import Limits
-from .progress import interruptible, progress_bar
 from .session import Session
 
 LEAST_REALIZATIONS = 8
@@ -37,6 +37,8 @@ def run(
     steps_per_record: Whole | None = None,
     progress: bool = True,
     sensitivity: bool | str | tuple[str, ...] = False,
+    checkpoint: str | Path | None = None,
+    every: float = EVERY,
 ) -> Result:
     """Simulate a scene and return labelled results with error bars.
 
@@ -67,13 +69,17 @@ def run(
         progress: show a progress bar.
         sensitivity: names of numbers of gas and scene, or True for all: `result.sensitivity` then
             has the derivatives of what is reported with respect to them (homogeneous gases).
+        checkpoint: a file that does not exist yet, in which the run is kept: `jdsmc.resume(file)`
+            goes on with it to the bit, after a crash or with other limits.
+        every: seconds between two checkpoints; more where writing one takes a hundredth of that.
     Raises:
         ValueError, TypeError: bad input, before anything is computed.
         NotSteadyError: no steady state within the budget; before the run, with `.result` None, if
             the warm-up alone needs more.
         FaultError: lost collisions or numbers that are not finite. Both have `.result`, what was
             measured until then, or None.
-    Ctrl-C ends the run after the present chunk and returns what was measured.
+        FileExistsError: there is a file of the checkpoint's name.
+    Ctrl-C, or SIGTERM, ends the run after the present chunk and returns what was measured.
     """
     scenes = scenes_of(scene)
     along = duration is not None or collisions is not None
@@ -89,12 +95,19 @@ def run(
         rtol=rtol,
         budget=budget,
     )
+    keeper = None
+    if checkpoint is not None:
+        chosen = {"n_particles": n_particles, "time_step": time_step, "splitting": splitting}
+        chosen |= {"dtype": str(options.dtype), "steps_per_record": steps_per_record}
+        chosen |= {"n_realizations": n_realizations, "seed": seed, "sensitivity": sensitivity}
+        keeper = Keeper(checkpoint, every, scene, chosen, new=True)
     return simulate(
         *(scene, scenes, options, limits),
         n_realizations=n_realizations,
         seed=seed,
         progress=progress,
         request=request,
+        keeper=keeper,
     )
 
 
@@ -139,90 +152,12 @@ def simulate(
     seed: Whole,
     progress: bool,
     request: Request | None = None,
+    keeper: Keeper | None = None,
 ) -> Result:
     """Advance until a limit is met, and assemble what was measured; see `run`."""
     n_realizations = check.whole("n_realizations", n_realizations, LEAST_REALIZATIONS)
     seed = check.whole("seed", seed, 0)
     limits.check_warm_up()
     session = Session(scenes, n_realizations, seed, options, limits, request)
-    return go_on(scene, session, {"seed": seed, "n_realizations": n_realizations}, progress)
-
-
-class UnderWay(NamedTuple):
-    """What a result must know to go on: the run as it stood when the result was made."""
-
-    scene: AbstractScene
-    session: Session
-    attrs: dict
-    length: int
-    start: np.ndarray
-
-
-def go_on(scene: AbstractScene, session: Session, attrs: dict, progress: bool) -> Result:
-    """Advance a session until its limits are met; raise what went wrong, with what there is."""
-    limits = session.limits
-
-    def result(stopped: str, whole: bool = True) -> Result:
-        known = whole and limits.can_be_steady and not session.failed
-        start = session.tracker.start.copy()  # to settle may move it
-        told = attrs | limits.attributes() | {"stopped": stopped}
-        made = assemble(scene, session, known, told)
-        made.under_way = UnderWay(scene, session, attrs, session.history.length, start)
-        return made
-
-    try:
-        with interruptible() as interrupted, progress_bar(progress) as bar:
-            stopped = ""
-            while not stopped:
-                session.advance()
-                stopped = session.ending()
-                bar.show(session)
-                if interrupted.is_set() and not stopped:
-                    stopped = f"interrupted after {session.spent:.1f} collisions per particle"
-    except FaultError as error:
-        if session.history.length:
-            error.result = result(f"fault: {error}", whole=False)
-        raise
-    if session.failed:
-        error = NotSteadyError(stopped)
-        error.result = result(stopped)
-        raise error
-    return result(stopped)
-
-
-def resume(
-    result: Result,
-    *,
-    duration: float | None = None,
-    collisions: float | None = None,
-    observable: str | tuple[str, ...] | None = None,
-    rtol: float | tuple[float, ...] | None = None,
-    budget: float = 5_000.0,
-    progress: bool = True,
-) -> Result:
-    """Go on with the run that made a result, in the same process; limits as of `run`.
-
-    With `duration` or `collisions`, counted from the start of the first run, the new result is to
-    the bit what asking for them at once would have given. Raises ValueError for a result that was
-    loaded, joined or cut (only a run of this process still holds its gas), for one that has been
-    gone on from, and for a time that was reached already.
-    """
-    under_way = result.under_way
-    if under_way is None:
-        raise ValueError(
-            "this result cannot go on: it was loaded, joined or cut, and holds no gas; run its "
-            "scene again."
-        )
-    scene, session, attrs, length, start = under_way
-    if session.history.length != length:
-        raise ValueError("this result has been gone on from already; go on from the latest one.")
-    limits = Limits(
-        session.history.scenes,
-        session.options,
-        **{"duration": duration, "collisions": collisions, "observable": observable},
-        **{"rtol": rtol, "budget": budget},
-    )
-    session.go_on(limits, start)
-    if limits.fixed and session.progress() >= 1.0:
-        raise ValueError("the time asked for was reached already; ask for more.")
-    return go_on(scene, session, attrs, progress)
+    attrs = {"seed": seed, "n_realizations": n_realizations}
+    return go_on(scene, session, attrs, progress, keeper)

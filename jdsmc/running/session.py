@@ -47,6 +47,9 @@ class Session:
         self.tracker = tracker_for(limits.approaches, scenes[0].monitored, drift)
         self.precision = self.share = np.inf
         self.failed = False
+        self.unsettled = self.tracker.state()
+        """What the tracker had found before it was asked for the last word, which a run that goes
+        on must not know of."""
         self._settled = np.zeros(len(scenes), bool)
         self._asked_at = -1
         self._next_look = self._next_check = 0.0
@@ -60,10 +63,11 @@ class Session:
             "engine": [jax.tree.map(np.asarray, state) for state in self.engine.states],
             "chunks": self.engine.chunks,
             "history": self.history.state(),
-            "tracker": self.tracker.state(),
+            "tracker": self.unsettled,
             "samples": None if self.samples is None else self.samples.state(),
             "next_look": self._next_look,
             "next_check": self._next_check,
+            "failed": self.failed,
         }
 
     def take(self, state: dict) -> None:
@@ -74,15 +78,15 @@ class Session:
         if self.samples is not None:
             self.samples.take(state["samples"])
         self._next_look, self._next_check = float(state["next_look"]), float(state["next_check"])
-        self._asked_at = -1
+        self.unsettled, self._asked_at = self.tracker.state(), -1
+        self.failed = bool(state["failed"])
 
-    def go_on(self, limits: Limits, start: np.ndarray) -> None:
-        """Take other limits; measurements start where they did before anything was settled."""
+    def go_on(self, limits: Limits) -> None:
+        """Take other limits, as if they had been asked for from the start."""
         self.limits = limits
-        self.tracker.start[:] = start
+        self.tracker.take(self.unsettled)
         self.precision = self.share = np.inf
-        self.failed = False
-        self._asked_at, self._next_look = -1, 0.0
+        self.failed, self._asked_at = False, -1
 
     def advance(self) -> None:
         """One chunk, its faults checked, and the steady state looked for."""
@@ -97,6 +101,7 @@ class Session:
             self._look_for_trouble()
         if self.limits.can_be_steady:
             self.tracker.update(self.history)
+        self.unsettled = self.tracker.state()
 
     def _look_for_trouble(self) -> None:
         """Raise FaultError if a scene finds fault with the later half of the run so far."""
@@ -112,14 +117,22 @@ class Session:
         return float(np.min(self.history.mean_collisions())) if self.history.length else 0.0
 
     def ending(self) -> str:
-        """Why to stop now, or an empty string."""
+        """Why to stop now, or an empty string; to ask leaves no trace in a run that goes on."""
+        ending = self._ending()
+        if not ending:
+            self.tracker.take(self.unsettled)
+            self._asked_at = -1
+        return ending
+
+    def _ending(self) -> str:
         limits = self.limits
+        due = self.tracker.all_measuring and self.spent >= self._next_look
+        if due:
+            self._next_look = (1.2 if self.correlated else 1.05) * self.spent
         if limits.fixed:
             return "the asked time was simulated" if self.progress() >= 1.0 else ""
-        if self.tracker.all_measuring and self.spent >= self._next_look:
-            self._next_look = (1.2 if self.correlated else 1.05) * self.spent
-            if self._precise() and self.is_settled() and self._precise():
-                return f"{limits.named} is known to {self.precision:.2g} (asked {limits.asked})"
+        if due and self._precise() and self.is_settled() and self._precise():
+            return f"{limits.named} is known to {self.precision:.2g} (asked {limits.asked})"
         if limits.records is not None and self.history.length >= limits.records:
             self._look()
             return (

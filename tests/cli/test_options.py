@@ -24,6 +24,8 @@ def test_every_option_reaches_the_run(asked, status):
         "splitting": ("splitting", "lie", "lie"),
         "dtype": ("dtype", "float32", "float32"),
         "steps-per-record": ("steps_per_record", "16", 16),
+        "checkpoint": ("checkpoint", "run.h5", "run.h5"),
+        "every": ("every", "60", 60.0),
     }
     words = [word for flag, (_, text, _) in flags.items() for word in (f"--{flag}", text)]
     gas = "--gas ehs-measured --rate-factor 0.8 --restitution 0.6"

@@ -9,7 +9,7 @@ import numpy as np
 
 from jdsmc import random, sweep
 from jdsmc.running.engine import Engine
-from jdsmc.running.estimates import steady_estimates
+from jdsmc.running.estimates import estimates_of
 from jdsmc.running.history import History
 from jdsmc.scenarios import Options
 
@@ -23,7 +23,8 @@ def window(scene, chunks, skip, **options):
 def observed(scene, chunks, skip, **options):
     """Observables and their errors over the chunks from `skip` on, whether or not it is steady."""
     history, records = simulate(scene, chunks, **options)
-    value, error, _ = steady_estimates(history, 0, skip * records)
+    means = history.point(0, skip * records, history.length)
+    value, error, _ = estimates_of(history.scenes[0], means, None)
     return value, error
 
 

@@ -1,0 +1,76 @@
+"""A session advanced until its limits are met."""
+
+from contextlib import nullcontext
+from typing import NamedTuple
+
+from ..errors import FaultError, NotSteadyError
+from ..results.result import Result
+from ..scenarios.base import AbstractScene
+from .assemble import assemble
+from .checkpoint import Keeper
+from .progress import interruptible, progress_bar
+from .session import Session
+
+INTERRUPTED = "interrupted"
+"""First word of what is said of a run that was ended by a signal."""
+
+
+class UnderWay(NamedTuple):
+    """What a result must know to go on: the run as it stood when the result was made."""
+
+    scene: AbstractScene
+    session: Session
+    attrs: dict
+    length: int
+
+
+def go_on(
+    scene: AbstractScene,
+    session: Session,
+    attrs: dict,
+    progress: bool,
+    keeper: Keeper | None = None,
+) -> Result:
+    """Advance a session until its limits are met; raise what went wrong, with what there is.
+
+    Arguments: the scene as the user made it; the session; attributes of the result; whether a bar
+    is shown; where the run is kept, if anywhere.
+    """
+    try:
+        with keeper or nullcontext(), interruptible() as ended, progress_bar(progress) as bar:
+            stopped = ""
+            while not stopped:
+                session.advance()
+                stopped = session.ending()
+                bar.show(session)
+                if ended.is_set() and not stopped:
+                    stopped = f"{INTERRUPTED} after {session.spent:.1f} collisions per particle"
+                if keeper is not None:
+                    keeper.keep(session, stopped)
+    except FaultError as error:
+        if session.history.length:
+            error.result = made(scene, session, attrs, f"fault: {error}", whole=False)
+        raise
+    return concluded(scene, session, attrs, stopped)
+
+
+def concluded(scene: AbstractScene, session: Session, attrs: dict, stopped: str) -> Result:
+    """The result of a session that has ended; NotSteadyError if it failed to become steady."""
+    result = made(scene, session, attrs, stopped)
+    if session.failed:
+        error = NotSteadyError(stopped)
+        error.result = result
+        raise error
+    return result
+
+
+def made(
+    scene: AbstractScene, session: Session, attrs: dict, stopped: str, *, whole: bool = True
+) -> Result:
+    """The result of what a session has come to, steady values only if it can be trusted."""
+    limits = session.limits
+    known = whole and limits.can_be_steady and not session.failed
+    told = attrs | limits.attributes() | {"stopped": stopped}
+    result = assemble(scene, session, known, told)
+    result.under_way = UnderWay(scene, session, attrs, session.history.length)
+    return result

@@ -1,0 +1,98 @@
+"""Go on with a run: of this process, or kept in a file."""
+
+from pathlib import Path
+from typing import Any
+
+from ..derivatives.request import requested
+from ..results.result import Result
+from . import checkpoint
+from .checkpoint import EVERY, Keeper
+from .going import INTERRUPTED, concluded, go_on
+from .limits import Limits
+from .run import options_of, scenes_of
+from .session import Session
+
+
+def resume(
+    source: Result | str | Path,
+    *,
+    duration: float | None = None,
+    collisions: float | None = None,
+    observable: str | tuple[str, ...] | None = None,
+    rtol: float | tuple[float, ...] | None = None,
+    budget: float | None = None,
+    progress: bool = True,
+    every: float = EVERY,
+    classes: tuple[type, ...] = (),
+) -> Result:
+    """Go on with a run, to the bit as if it had never ended and the last limits had been asked for.
+
+    Arguments:
+        source: the result of a run of this process; or a checkpoint (`run(checkpoint=...)`), which
+            is written to again as the run goes on.
+        duration, collisions: counted from the start of the first run.
+        observable, rtol, budget: as of `run`. What is not given is as it was; of a time and a
+            precision the new one counts. With no limit at all a run that was ended goes on, and one
+            that came to its end gives its result again.
+        progress, every: as of `run`.
+        classes: of the scene and the gas, if they are your own and not imported yet.
+    Raises: ValueError for a result that was loaded, joined or cut (it holds no gas) or has been
+        gone on from, for a time that was reached already, and for a file that is no checkpoint or
+        was changed; FileNotFoundError; else as `run`.
+    A warning says so if another processor or other versions go on, with other roundings.
+    """
+    limits = {"duration": duration, "collisions": collisions, "observable": observable}
+    asked = {
+        name: x for name, x in {**limits, "rtol": rtol, "budget": budget}.items() if x is not None
+    }
+    if not isinstance(source, Result):
+        return from_file(Path(source), asked, progress, every, classes)
+    under_way = source.under_way
+    if under_way is None:
+        raise ValueError(
+            "this result cannot go on: it was loaded, joined or cut, and holds no gas; resume the "
+            "checkpoint of its run, or run its scene again."
+        )
+    scene, session, attrs, length = under_way
+    if session.history.length != length:
+        raise ValueError("this result has been gone on from already; go on from the latest one.")
+    _ask(session, asked)
+    return go_on(scene, session, attrs, progress)
+
+
+def from_file(path: Path, asked: dict, progress: bool, every: float, classes) -> Result:
+    """Go on with the run that a checkpoint keeps; `asked` are the limits that change."""
+    kept = checkpoint.read(path, classes)
+    scene, chosen = kept.scene, kept.chosen
+    points = scenes_of(scene)
+    along = any(kept.limits[name] is not None for name in ("duration", "collisions"))
+    sensitivity = chosen["sensitivity"]
+    request = None
+    if sensitivity is not False:
+        request = requested(scene, points, sensitivity, along=along)
+    numerics = ("n_particles", "time_step", "splitting", "dtype", "steps_per_record")
+    options = options_of(points, *(chosen[name] for name in numerics))
+    points = [one.prepared() for one in points]
+    limits = Limits(points, options, **kept.limits)
+    session = Session(points, chosen["n_realizations"], chosen["seed"], options, limits, request)
+    kept.give(session)
+    attrs = {name: chosen[name] for name in ("seed", "n_realizations")}
+    finished = kept.stopped and not kept.stopped.startswith(INTERRUPTED)
+    if finished and not asked:
+        return concluded(scene, session, attrs, kept.stopped)
+    if asked:
+        _ask(session, asked)
+    return go_on(scene, session, attrs, progress, Keeper(path, every, scene, chosen, new=False))
+
+
+def _ask(session: Session, asked: dict) -> None:
+    """Give a session other limits: those given, and for the rest those it had."""
+    given: dict[str, Any] = session.limits.given | {
+        "duration": None,
+        "collisions": None,
+        "records": None,
+    }
+    limits = Limits(session.history.scenes, session.options, **(given | asked))
+    session.go_on(limits)
+    if limits.fixed and session.progress() >= 1.0:
+        raise ValueError("the time asked for was reached already; ask for more.")
