@@ -73,8 +73,12 @@ def bits(key: Key, shape: tuple[int, ...], stream=0) -> tuple[Word, Word]:
     What needs several such arrays within a step takes them from different `stream`s of one key:
     that costs nothing, where a new key costs twenty rounds in scalars, to compile and to run.
     """
-    count = jnp.arange(int(np.prod(shape)), dtype=jnp.uint32).reshape(shape)
-    return threefry(key, count, jnp.asarray(stream, jnp.uint32))
+    return words(key, jnp.arange(int(np.prod(shape)), dtype=jnp.uint32).reshape(shape), stream)
+
+
+def words(key: Key, number: Array, stream=0) -> tuple[Word, Word]:
+    """What `bits` has at these places of its arrays: for those few that need random numbers."""
+    return threefry(key, number.astype(jnp.uint32), jnp.asarray(stream, jnp.uint32))
 
 
 def unit_interval(word: Word, dtype, n_bits: int = 23):

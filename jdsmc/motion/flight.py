@@ -3,11 +3,12 @@
 import equinox as eqx
 import jax.numpy as jnp
 from jax import lax
-from jaxtyping import Array, Bool
+from jaxtyping import Array, Bool, Int32
 
 from ..gases.scatter import root
 from ..random import Stream
 from ..types import Key, Positions, Scalar, Velocities
+from .queue import Queue, places_for
 from .walls import Walls
 
 MOST_BOUNCES = 100
@@ -46,8 +47,69 @@ def fly(
     length: Scalar,
     duration: Scalar,
 ) -> tuple[Positions, Velocities, Exchange]:
-    """Parabolic flight with acceleration -g ẑ; who hits a wall flies on with what it gives back."""
-    remaining = jnp.full_like(position, duration)
+    """Parabolic flight with acceleration -g ẑ; who hits a wall flies on with what it gives back.
+
+    Nearly all particles hit none. Those who do are gathered, some places at a time, and bounce
+    there until they have flown: random numbers, logarithms and roots are theirs alone. Rounds go on
+    until all have had a place, whatever their number.
+    """
+    vx, vy, vz = velocity
+    fall = gravity * duration
+    end = position + duration * (vz - 0.5 * fall)
+    hits = hitting(position, vz, end, gravity, length, duration)
+    queue = Queue.of(hits)
+    places = places_for(position.shape[0])
+
+    def serve(carry):
+        served, there, (wx, wy, wz), exchange = carry
+        who, taken = queue.next(served, places)
+        start = tuple(x[who] for x in (position, vx, vy, vz))
+        (z, *after), now = bounce(key, walls, who, taken, start, gravity, length, duration)
+        # an empty place is written past the end, that is nowhere
+        to = jnp.where(taken, who, position.shape[0])
+        there, *moved = (
+            whole.at[to].set(part, mode="drop", unique_indices=True)
+            for whole, part in zip((there, wx, wy, wz), (z, *after), strict=True)
+        )
+        return served + places, there, tuple(moved), exchange.then(now)
+
+    def some_wait(carry):
+        return carry[0] < queue.length
+
+    carry = (jnp.asarray(0, jnp.int32), end, (vx, vy, vz - fall), Exchange.none(position.dtype))
+    _, there, velocity, exchange = lax.while_loop(some_wait, serve, carry)
+    return there, velocity, exchange
+
+
+def hitting(position, speed, end, gravity, length, duration) -> Bool[Array, " particles"]:
+    """Whether a parabola leaves [0, L] within the time: at its end, or where it turns.
+
+    Without roots; derivatives see none of it.
+    """
+    position, speed, end = lax.stop_gradient((position, speed, end))
+    falls = jnp.abs(gravity) > jnp.finfo(position.dtype).tiny
+    per_gravity = jnp.where(falls, 1.0 / jnp.where(falls, gravity, 1.0), 0.0)
+    turn = jnp.clip(speed * lax.stop_gradient(per_gravity), 0.0, duration)
+    extreme = position + turn * (speed - 0.5 * gravity * turn)
+    return (jnp.minimum(end, extreme) < 0.0) | (jnp.maximum(end, extreme) > length)
+
+
+def bounce(
+    key: Key,
+    walls: Walls,
+    who: Int32[Array, " places"],
+    taken: Bool[Array, " places"],
+    start: tuple,
+    gravity: Scalar,
+    length: Scalar,
+    duration: Scalar,
+):
+    """Fly the particles of the taken places to the end of the step.
+
+    Arguments: `who`, the number of each particle, that its random numbers follow; `start`, place
+    and velocity components. Returns: the same afterwards, and what the walls did.
+    """
+    position, *velocity = start
 
     def any_left(carry):
         number, (_, _, remaining, _) = carry
@@ -56,16 +118,17 @@ def fly(
     def once_more(carry):
         number, flights = carry
         stream = Stream.FLIGHT + 2 * number
-        return number + 1, _fly_once(key, stream, walls, flights, gravity, length)
+        return number + 1, _fly_once(key, stream, walls, who, flights, gravity, length)
 
-    flights = (position, velocity, remaining, Exchange.none(position.dtype))
+    remaining = jnp.where(taken, duration, 0.0)
+    flights = (position, tuple(velocity), remaining, Exchange.none(position.dtype))
     first = once_more((jnp.asarray(0, jnp.int32), flights))  # nearly always all there is
     _, (position, velocity, remaining, exchange) = lax.while_loop(any_left, once_more, first)
     lost = jnp.sum((remaining > 0).astype(position.dtype))
-    return position, velocity, eqx.tree_at(lambda e: e.lost, exchange, lost)
+    return (position, *velocity), eqx.tree_at(lambda e: e.lost, exchange, lost)
 
 
-def _fly_once(key: Key, stream, walls: Walls, flights, gravity: Scalar, length: Scalar):
+def _fly_once(key: Key, stream, walls: Walls, who, flights, gravity: Scalar, length: Scalar):
     """Fly until a wall is hit, take a new velocity there, and fly on unless a wall is hit again."""
     position, (vx, vy, vz), remaining, exchange = flights
     time, at_top = first_hit(position, vz, gravity, length)
@@ -75,7 +138,7 @@ def _fly_once(key: Key, stream, walls: Walls, flights, gravity: Scalar, length: 
     arriving = vz - gravity * time
     place = jnp.where(hit, jnp.where(at_top, length, 0.0), flown)
     rest = remaining - time
-    new = lax.optimization_barrier(walls.emit(key, stream, at_top, vz))
+    new = lax.optimization_barrier(walls.emit(key, stream, who, at_top, vz.dtype))
     gained = 0.5 * (sum(v * v for v in new) - (vx * vx + vy * vy + arriving * arriving))
     vx, vy, vz = (
         jnp.where(hit, emitted, old) for emitted, old in zip(new, (vx, vy, arriving), strict=True)

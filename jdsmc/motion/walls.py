@@ -19,7 +19,7 @@ from jaxtyping import Array, Float
 
 from .. import random
 from ..gases.scatter import root, sin_cos_turns
-from ..types import Key, Positions, Scalar
+from ..types import Key, Positions, Scalar, Velocities
 
 LARGEST_X = 4.2
 """√(-ln p) of the smallest p of 24 bits is 4.16."""
@@ -57,18 +57,16 @@ class Walls(eqx.Module):
         cold, hot = wall_gradients(cold_temperature, length)
         return Walls(walls.speed, jnp.stack([speed_table(cold, True), speed_table(hot, False)]))
 
-    def emit(
-        self, key: Key, stream, at_top: Array, normal: Positions
-    ) -> tuple[Positions, Positions, Positions]:
+    def emit(self, key: Key, stream, who: Array, at_top: Array, dtype) -> Velocities:
         """Velocities (x, y, z) of particles emitted upwards at z = 0 or downwards at z = L.
 
-        Random numbers come from `stream` of the key and the one after it.
+        Random numbers come from `stream` of the key and the one after it, at the number of each
+        particle, `who`: they do not depend on which others are asked for.
         """
-        first = random.bits(key, normal.shape, stream)
-        radius = jnp.sqrt(-jnp.log(random.unit_interval(first[0], normal.dtype)))
-        sine, cosine = sin_cos_turns(random.unit_interval(first[1], normal.dtype))
-        second, _ = random.bits(key, normal.shape, stream + 1)
-        x = jnp.sqrt(-jnp.log(random.unit_interval(second, normal.dtype)))
+        first, second = (random.words(key, who, stream + k) for k in (0, 1))
+        radius = jnp.sqrt(-jnp.log(random.unit_interval(first[0], dtype)))
+        sine, cosine = sin_cos_turns(random.unit_interval(first[1], dtype))
+        x = jnp.sqrt(-jnp.log(random.unit_interval(second[0], dtype)))
         wall = at_top.astype(jnp.int32)
         thermal = jnp.where(at_top, self.speed[1], self.speed[0])
         away = thermal * (x if self.table is None else interpolate(self.table, wall, x))

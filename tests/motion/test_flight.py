@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from jdsmc import random
+from jdsmc.motion import queue
 from jdsmc.motion.flight import cross_planes, fly, time_to_floor
 from jdsmc.motion.walls import Walls
 
@@ -79,6 +80,59 @@ def test_particles_stay_between_the_walls_however_often_they_hit_them(gravity):
     given = float(exchange.cold_energy + exchange.hot_energy)
     # 1e4 hits, each rounded to 1e-7 of an energy of 1
     assert energy[1] - energy[0] == pytest.approx(given, abs=0.02)
+
+
+def _thin_slab(count=1000):
+    """Particles that hit the walls several times in a step, and some that never do."""
+    rng = np.random.default_rng(4)
+    place, velocity = rng.random(count), rng.normal(size=(3, count))
+    velocity[:, ::3] *= 1e-3
+    return place, velocity
+
+
+@pytest.mark.parametrize("gravity", [0.0, 0.4])
+def test_nothing_depends_on_how_many_are_served_at_once(gravity, monkeypatch):
+    """One place, a few, or one for everybody: the same particles, bit by bit.
+
+    What the walls gave is summed in another order: single precision of a thousand hits.
+    """
+    place, velocity = _thin_slab()
+    found = []
+    for particles in (1, 20, 10_000):
+        monkeypatch.setattr(queue, "PARTICLES_A_PLACE", particles)
+        jax.clear_caches()
+        found.append(_fly(place, velocity, 1.0, gravity, 1.0, 0.5))
+    jax.clear_caches()
+    (position, after, exchange), *others = found
+    hit = np.asarray(after[0]) != velocity[0].astype(np.float32)
+    assert 100 < np.sum(hit) < 900
+    for position_too, after_too, exchange_too in others:
+        np.testing.assert_array_equal(position_too, position)
+        np.testing.assert_array_equal(after_too, after)
+        np.testing.assert_allclose(
+            jax.tree.leaves(exchange_too), jax.tree.leaves(exchange), rtol=1e-4
+        )
+
+
+def test_gases_flown_together_fly_as_alone():
+    """Under `vmap` loops go on for all until the last is done: nobody is served twice."""
+    place, velocity = _thin_slab()
+    batch = [
+        (jnp.asarray(x[..., part], f32) for x in (place, velocity))
+        for part in (slice(0, 500), slice(500, 1000))
+    ]
+    positions, velocities = (jnp.stack(both) for both in zip(*batch, strict=True))
+    walls, numbers = Walls.maxwell(f32(0.5)), (f32(0.1), f32(1.0), f32(1.0))
+
+    def one(position, velocity, calm):
+        return fly(KEY, walls, position, tuple(calm * v for v in velocity), *numbers)
+
+    calm = jnp.asarray([1.0, 0.02], f32)
+    together = jax.jit(jax.vmap(one))(positions, velocities, calm)
+    for k in range(2):
+        alone = jax.jit(one)(positions[k], velocities[k], calm[k])
+        for a, b in zip(jax.tree.leaves(alone), jax.tree.leaves(together), strict=True):
+            np.testing.assert_allclose(b[k], a, rtol=1e-4, atol=1e-6)  # single precision
 
 
 def test_endless_bouncing_is_counted_as_lost():

@@ -16,7 +16,8 @@ COUNT = 400_000
 def _emitted(walls, top):
     key = random.key_from_seed(3)
     at_top = jnp.full(COUNT, top)
-    return [np.asarray(v, float) for v in walls.emit(key, 0, at_top, jnp.zeros(COUNT, f32))]
+    who = jnp.arange(COUNT)
+    return [np.asarray(v, float) for v in walls.emit(key, 0, who, at_top, f32)]
 
 
 def _check(values, expected):
