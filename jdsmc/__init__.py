@@ -14,7 +14,11 @@ from .gases import (
 )
 from .measure.observable import Observable
 from .results import Derivative, Result, Sensitivity, load
+from .running.provenance import version
 from .running.run import resume, run
+
+__version__ = version()
+"""Of the installed package; "unknown" in a bare checkout."""
 
 __all__ = [
     "AbstractGas",
@@ -29,6 +33,7 @@ __all__ = [
     "Observable",
     "Result",
     "Sensitivity",
+    "__version__",
     "choice",
     "combine",
     "count",

@@ -36,7 +36,7 @@ def demo(python: Path, rest: list[str]) -> int:
     """A sheared granular gas until it is steady: table and picture."""
     (ROOT / "output").mkdir(exist_ok=True)
     picture = str(ROOT / "output" / "sheared_gas.png")
-    command = [python, "-m", "jdsmc.cli", "run", "shear", "--plot", picture]
+    command = [python, "-m", "jdsmc", "run", "shear", "--plot", picture]
     return call([*command, "--restitution", "0.9", "--shear-rate", "4", *rest])
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from ..errors import FaultError
 from ..results.result import load
+from ..running.provenance import version
 from . import catalogue
 from .arguments import Parser
 from .fit import fit
@@ -57,8 +58,8 @@ def told(why: Exception | str, status: int) -> int:
 
 def command(words: list[str]) -> int:
     """Run the command of these words; ValueError if there is none."""
-    if not words or words[0] in HELP:
-        print(overview())
+    if not words or words[0] in HELP or words == ["--version"]:
+        print(f"jdsmc {version()}" if words == ["--version"] else overview())
         return 0
     first, rest = words[0], words[1:]
     if first in ("run", "sweep"):
@@ -111,5 +112,8 @@ def overview() -> str:
     parts = ["Direct simulation Monte Carlo of granular and molecular gases."]
     for title, rows in (("", commands), ("Scenes", scenes), ("Gases (--gas)", gases)):
         parts.append("\n".join([title, *(f"  {name:{width}}{text}" for name, text in rows)]))
-    parts.append("\n`jdsmc run SCENE --help` explains every option of a scene with its unit.")
+    parts.append(
+        "\n`jdsmc run SCENE --help` explains every option of a scene with its unit; "
+        "`jdsmc --version`."
+    )
     return "\n".join(parts)
