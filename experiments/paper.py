@@ -13,6 +13,7 @@ import shutil
 import time
 import tomllib
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
@@ -66,6 +67,7 @@ class Paper:
                 draw(data, axes)
                 return found
 
+            drawn.__doc__ = (draw.func if isinstance(draw, partial) else draw).__doc__
             self.figures[name] = drawn
             return draw
 

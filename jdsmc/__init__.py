@@ -15,8 +15,12 @@ from .gases import (
 from .measure.observable import Observable
 from .results import Derivative, Result, Sensitivity, load
 from .running.merge import merge
+from .running.provenance import version
 from .running.resume import resume
 from .running.run import run
+
+__version__ = version()
+"""Of the installed package; "unknown" in a bare checkout."""
 
 __all__ = [
     "AbstractGas",
@@ -31,6 +35,7 @@ __all__ = [
     "Observable",
     "Result",
     "Sensitivity",
+    "__version__",
     "choice",
     "combine",
     "count",

@@ -5,6 +5,7 @@ once. A plain annotated field works too; it only says less.
 """
 
 import dataclasses
+from html import escape
 from typing import Any
 
 import equinox as eqx
@@ -82,6 +83,19 @@ def text(module) -> str:
     """A gas or scene with its numbers, as it would be typed."""
     parts = [f"{name}={_shown(value)}" for name, value in ingredients(module).items()]
     return f"{type(module).__name__}({', '.join(parts)})"
+
+
+def as_html(module) -> str:
+    """A gas or scene for a notebook: name, value, unit and meaning of every field."""
+    rows = []
+    for field in given(module):
+        value, facts = ingredients(module)[field.name], field.metadata
+        shown = text(value) if dataclasses.is_dataclass(value) else _shown(value)
+        unit = facts.get("unit", "")
+        cells = (field.name, shown, "" if unit == "1" else unit, facts.get("meaning", ""))
+        rows.append("".join(f'<td style="text-align: left">{escape(c)}</td>' for c in cells))
+    body = "".join(f"<tr>{row}</tr>" for row in rows)
+    return f"<b>{escape(type(module).__name__)}</b><table><tbody>{body}</tbody></table>"
 
 
 def _shown(value) -> str:

@@ -1,4 +1,4 @@
-"""Set up and run the project: `python3 tools/dev.py demo`, `... test`.
+"""Set up and run the project: `python3 tools/dev.py demo`, `... test`, `... docs`.
 
 Needs nothing but Python 3.11 or newer. Makes a virtual environment in .venv with the newest Python
 that works (newer Pythons get a newer, faster JAX), installs the project into it, and runs the task.
@@ -22,13 +22,13 @@ NEWEST = 20
 def main() -> int:
     """Parse the task, set up, run it; the exit status of the task."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("task", choices=("demo", "test", "install"))
+    parser.add_argument("task", choices=("demo", "test", "docs", "install"))
     parser.add_argument("--oldest", action="store_true", help="use the oldest Python that works")
     options, rest = parser.parse_known_args()
-    extra = "" if options.task == "demo" else "[dev]"
+    extra = {"demo": "", "docs": "[docs]"}.get(options.task, "[dev]")
     python = environment(ROOT / (".venv-oldest" if options.oldest else ".venv"), extra, options)
     tests = pytest if options.oldest else test
-    tasks = {"demo": demo, "test": tests, "install": lambda *_: 0}
+    tasks = {"demo": demo, "test": tests, "docs": docs, "install": lambda *_: 0}
     return tasks[options.task](python, rest)
 
 
@@ -36,7 +36,7 @@ def demo(python: Path, rest: list[str]) -> int:
     """A sheared granular gas until it is steady: table and picture."""
     (ROOT / "output").mkdir(exist_ok=True)
     picture = str(ROOT / "output" / "sheared_gas.png")
-    command = [python, "-m", "jdsmc.cli", "run", "shear", "--plot", picture]
+    command = [python, "-m", "jdsmc", "run", "shear", "--plot", picture]
     return call([*command, "--restitution", "0.9", "--shear-rate", "4", *rest])
 
 
@@ -49,6 +49,15 @@ def test(python: Path, rest: list[str]) -> int:
     ]
     failed = next((status for step in steps if (status := call([python, *step]))), 0)
     return failed or pytest(python, rest)
+
+
+def docs(python: Path, rest: list[str]) -> int:
+    """The pages as HTML in site/; a warning is an error."""
+    shutil.rmtree(ROOT / "docs" / "made", ignore_errors=True)
+    strict = ["--quiet", "--fail-on-warning", "--keep-going", "--fresh-env"]
+    failed = call([python, "-m", "sphinx", *strict, *rest, "docs", "site"])
+    print("Failed." if failed else f"Open {ROOT / 'site' / 'index.html'} in a browser.")
+    return failed
 
 
 def pytest(python: Path, rest: list[str]) -> int:
@@ -73,9 +82,11 @@ def environment(folder: Path, extra: str, options) -> Path:
     """The Python of a virtual environment with the project and an extra installed."""
     python = folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
     stamp = folder / "installed"
-    wanted = extra + hashlib.sha256((ROOT / "pyproject.toml").read_bytes()).hexdigest()
+    project = hashlib.sha256((ROOT / "pyproject.toml").read_bytes()).hexdigest()
+    wanted = extra + project
     present = stamp.read_text() if stamp.exists() else ""
-    if present in (wanted, "[dev]" + wanted) and version(python):
+    enough = present.endswith(project) and present.startswith((extra, "[dev]"))
+    if enough and version(python):
         return python
     if version(python) and present and install(python, extra):
         stamp.write_text(wanted)

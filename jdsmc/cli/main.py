@@ -5,7 +5,9 @@ import sys
 from pathlib import Path
 
 from ..errors import FaultError
-from ..results.result import load
+from ..results.columns import columns, write_csv
+from ..results.result import Result, load
+from ..running.provenance import version
 from . import catalogue
 from .arguments import Parser
 from .fit import fit
@@ -23,7 +25,7 @@ COMMANDS = {
     "resume": ("FILE [options]", "go on with a run that --checkpoint kept"),
     "merge": ("FILES --out FILE", "realizations, or points of a sweep, of several runs as one"),
     "fit": ("beta [options]", "the rate factor of an elastic gas that mimics an inelastic one"),
-    "show": ("FILE", "print the table of a result file"),
+    "show": ("FILE [--csv]", "print the table of a result file"),
     "plot": ("FILE [--out PICTURE]", "draw a result file"),
     "theory": ("[--restitution A:B:STEP]", "transport coefficients without simulation"),
 }
@@ -61,8 +63,8 @@ def told(why: Exception | str, status: int) -> int:
 
 def command(words: list[str]) -> int:
     """Run the command of these words; ValueError if there is none."""
-    if not words or words[0] in HELP:
-        print(overview())
+    if not words or words[0] in HELP or words == ["--version"]:
+        print(f"jdsmc {version()}" if words == ["--version"] else overview())
         return 0
     first, rest = words[0], words[1:]
     if first in ("run", "sweep"):
@@ -95,14 +97,35 @@ def shown(name: str, words: list[str]) -> int:
             metavar="PICTURE",
             help="picture to write (PNG, PDF or SVG); by default the name of the file with .png",
         )
+    else:
+        parser.add_argument("--csv", action="store_true", help="print values separated by commas")
+        parser.add_argument(
+            "--along",
+            metavar="DIMENSION",
+            default="",
+            help="with --csv, a line for each place on this dimension: sample (time series), z, "
+            "velocity, ...; steady values without it",
+        )
     if HELP & set(words):
         print(parser.format_help(), end="")
         return 0
     asked = parser.parse_args(words)
     result = load(asked.file)
+    if name == "show" and (asked.csv or asked.along):
+        return print_csv(result, asked.along)
     if name == "show":
         return int(show(result))
     return int(draw(result, check_picture(asked.out or picture_of(Path(asked.file)))))
+
+
+def print_csv(result: Result, along: str) -> int:
+    """Values separated by commas; ValueError for a dimension that is not there."""
+    try:
+        table = columns(result.to_xarray(), result.dims, along)
+    except KeyError as error:
+        raise ValueError(error.args[0]) from None
+    write_csv(table, sys.stdout)
+    return 0
 
 
 def overview() -> str:
@@ -116,5 +139,8 @@ def overview() -> str:
     parts = ["Direct simulation Monte Carlo of granular and molecular gases."]
     for title, rows in (("", commands), ("Scenes", scenes), ("Gases (--gas)", gases)):
         parts.append("\n".join([title, *(f"  {name:{width}}{text}" for name, text in rows)]))
-    parts.append("\n`jdsmc run SCENE --help` explains every option of a scene with its unit.")
+    parts.append(
+        "\n`jdsmc run SCENE --help` explains every option of a scene with its unit; "
+        "`jdsmc --version`."
+    )
     return "\n".join(parts)

@@ -10,7 +10,7 @@ import equinox as eqx
 import numpy as np
 
 from .. import sweep
-from ..fields import check_fields, text
+from ..fields import as_html, check_fields, text
 from ..units import INITIAL_TEMPERATURE
 from . import local
 
@@ -45,6 +45,9 @@ class AbstractGas(eqx.Module):
 
     def __repr__(self) -> str:
         return text(self)
+
+    def _repr_html_(self) -> str:
+        return as_html(self)
 
     @abstractmethod
     def rate(self, speed) -> Any:

@@ -7,10 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from .. import views
 from ..estimate import Estimate
+from .columns import columns, write_csv
 from .rebuild import rebuilt
 from .sensitivity import Sensitivity
 
@@ -148,6 +150,23 @@ class Result:
     def to_xarray(self) -> xr.DataTree:
         """Everything: steady values at the root, groups `series`, `distribution`, ..."""
         return self._tree
+
+    def to_dataframe(self, along: str = "") -> pd.DataFrame:
+        """A pandas DataFrame: swept numbers, then each value beside its `<name>_error`.
+
+        `along` is "" for steady values, one row for each point of the sweep; or a dimension, one
+        row for each point and place on it: "sample" for time series, "z", "velocity", ... Raises
+        KeyError for one that is not there.
+        """
+        return pd.DataFrame(columns(self._tree, self.dims, along))
+
+    def to_csv(self, path: str | Path, along: str = "", overwrite: bool = False) -> Path:
+        """Write the columns of `to_dataframe`; FileExistsError rather than replace a file."""
+        table = columns(self._tree, self.dims, along)
+        path = check_writable(path, overwrite)
+        with path.open("w", encoding="utf-8", newline="") as file:
+            write_csv(table, file)
+        return path
 
     def scene(self, *classes: type):
         """The scene that made this result, built again.

@@ -8,7 +8,7 @@ import equinox as eqx
 import numpy as np
 
 from ..collisions.meet import Collisions
-from ..fields import check_fields, text
+from ..fields import as_html, check_fields, text
 from ..gases import AbstractGas, ElasticHardSpheres
 from ..gases.base import check_gas
 from ..measure.observable import Observable
@@ -104,6 +104,9 @@ class AbstractScene(eqx.Module):
 
     def __repr__(self) -> str:
         return text(self)
+
+    def _repr_html_(self) -> str:
+        return as_html(self)
 
     # On the device: pure, traced, one gas.
 

@@ -41,6 +41,8 @@ def test_sweep_show_and_plot(folder, status, capsys):
         assert data["shear_stress"].dims == data["a2_error"].dims == ("gas", "restitution")
         assert list(data["gas"].values) == ["ihs", "ehs"]
         np.testing.assert_array_equal(data["restitution"], [0.6, 0.7])
+        assert data["restitution"].attrs["long_name"] == "coefficient of normal restitution α"
+        assert data["restitution"].attrs["units"] == "1"
         assert np.all(data["shear_stress"] > 0) and np.all(data["shear_stress_error"] > 0)
         attrs = data.attrs
     np.testing.assert_array_equal(attrs["parameter_restitution"], [0.6, 0.7])
@@ -54,6 +56,12 @@ def test_sweep_show_and_plot(folder, status, capsys):
     assert status("show sweep.h5") == 0
     shown = capsys.readouterr().out
     assert shown.strip() in table
+    assert status("show sweep.h5 --csv") == 0
+    head, *rows = capsys.readouterr().out.splitlines()
+    assert head.startswith("gas,restitution,shear_stress,shear_stress_error,") and len(rows) == 4
+    assert rows[0].startswith("ihs,0.6,")
+    assert status("show sweep.h5 --along nowhere") == 2
+    assert "nothing lies along 'nowhere'" in capsys.readouterr().err
     assert status("plot sweep.h5") == 0
     assert (folder / "sweep.pdf").read_bytes().startswith(b"%PDF")
     assert (folder / "sweep.png").read_bytes().startswith(b"\x89PNG")

@@ -157,7 +157,7 @@ def test_a_reader_that_has_seen_enough(measured):
     read, write = os.pipe()
     os.close(read)
     done = subprocess.run(
-        [sys.executable, "-m", "jdsmc.cli", "show", "x.h5"],
+        [sys.executable, "-m", "jdsmc", "show", "x.h5"],
         stdout=write,
         stderr=subprocess.PIPE,
         check=False,

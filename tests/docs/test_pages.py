@@ -5,6 +5,7 @@ import shlex
 import sys
 from pathlib import Path
 
+import jax
 import numpy as np
 import pytest
 
@@ -44,6 +45,14 @@ def folder(tmp_path, monkeypatch):
         sys.modules.pop(module, None)
 
 
+@pytest.fixture
+def in_haste():
+    """Compile quickly what runs for a moment."""
+    jax.config.update("jax_disable_most_optimizations", True)
+    yield
+    jax.config.update("jax_disable_most_optimizations", False)
+
+
 def deviation(estimate, value) -> float:
     """In standard errors."""
     return abs(estimate.value - value) / estimate.error
@@ -78,6 +87,34 @@ def test_own_scene(folder, capsys):
         assert found.error < 0.15 * abs(wanted)
         assert abs(found.value - wanted) < 5 * found.error + 0.04 * abs(wanted)
     assert theory(0.3) > theory(0.5) > 0 > theory(0.8)
+
+
+def test_sweeps(folder, in_haste, capsys):
+    names = read_page("sweeps.md", folder)
+    assert {"stress.png", "all.png", "sweep.h5", "sweep.png"} <= {p.name for p in folder.iterdir()}
+    # 3% more stress of the elastic gas in published figures, within 5 errors and the other way 0
+    assert 0.9 < names["ratio"].value < 1.1 and names["ratio"].error < 0.03
+    table = capsys.readouterr().out
+    assert "gas,restitution,shear_stress,shear_stress_error" in table
+
+
+def test_precision(folder, in_haste):
+    """What is asked is reached, and a difference has the error of the observable that it is."""
+    names = read_page("precision.md", folder)
+    result, difference = names["result"], names["difference"]
+    assert result["shear_stress"].error < 0.01 * result["shear_stress"].value
+    same = result["normal_stress_xy"]
+    # the larger of two estimates is printed, so that the printed error may exceed the jackknife's
+    np.testing.assert_allclose(difference.value, same.value, atol=0.3 * same.error)
+    assert 0.3 * same.error < difference.error < 1.2 * same.error
+    assert not names["transient"].is_steady
+
+
+def test_exporting(folder, in_haste, capsys):
+    read_page("exporting.md", folder)
+    files = {"shear.h5", "steady.csv", "shear.pdf", "mine.png"}
+    assert files <= {p.name for p in folder.iterdir()}
+    assert "velocity,marginal_x,marginal_x_error" in capsys.readouterr().out
 
 
 @pytest.mark.slow

@@ -162,6 +162,15 @@ def test_html(sheared, heated):
     assert not re.search(r"<(b|2)>", page.as_html(one)) and "x &gt; y" in page.as_html(one)
 
 
+def test_html_of_scenes():
+    """Name, value, unit and meaning of every number; nothing is markup that should be text."""
+    text = Heated(Rough(0.5), np.array([0.1, 0.2]))._repr_html_()
+    assert "<b>Heated</b>" in text and text.count("<tr>") == 2
+    for words in ("Rough(alpha=0.5)", "[0.1, 0.2]", "v0²/τ0", "strength &lt;ξ²&gt; of the noise"):
+        assert f">{words}</td>" in text
+    assert ">restitution</td>" in jdsmc.InelasticHardSpheres(0.7)._repr_html_()
+
+
 def test_notebook_shows_a_figure_once(sheared, tmp_path):
     """A figure draws itself, and pyplot, which would draw it again, does not know it."""
     path = tmp_path / "picture.png"
