@@ -9,8 +9,9 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
+from ..files.writable import check_writable
 from ..results.join import join_gases
-from ..results.result import Result, check_writable
+from ..results.result import Result
 
 PICTURES = (".png", ".pdf", ".svg")
 RESULTS = (".h5", ".hdf5", ".nc")
