@@ -222,15 +222,21 @@ def _has_no_values(one: h5py.Dataset) -> bool:
     return h5py.h5ds.is_scale(one.id) and bytes(name).startswith(WITHOUT_VALUES)
 
 
+def is_hdf5(path: Path) -> bool:
+    """True if a file begins as HDF5 does."""
+    with path.open("rb") as file:
+        return file.read(len(SIGNATURE)) == SIGNATURE
+
+
 def start(path: Path) -> None:
     """Raise ValueError unless a file begins as HDF5 does and is as long as it says there.
 
     HDF5 specification 3.0, section II.A: where the end of the file stands in its superblock.
     """
+    if not is_hdf5(path):
+        raise ValueError("it is not an HDF5 file")
     with path.open("rb") as file:
         head, size = file.read(52), file.seek(0, os.SEEK_END)
-    if not head.startswith(SIGNATURE):
-        raise ValueError("it is not an HDF5 file")
     place = END_OF_FILE.get(head[8] if len(head) > 8 else -1)
     if place is None or len(head) < place + 8:
         raise ValueError("its first bytes make no sense")
