@@ -13,7 +13,15 @@ from jdsmc import Result, load
 
 PACKAGE = Path(jdsmc.__file__).parent
 
-OUTSIDE = ("views", "cli", "results", "check.py", "running/progress.py", "running/provenance.py")
+OUTSIDE = (
+    "views",
+    "cli",
+    "results",
+    "files",
+    "check.py",
+    "running/progress.py",
+    "running/provenance.py",
+)
 """Sources that decide no number; nor do those that only they import."""
 
 
@@ -28,10 +36,14 @@ def obtain(case, folder: Path, fresh: bool = False) -> Result:
     path = folder / f"{case.name}.h5"
     asked = {"request": case.request(), "program": program(*case.sources())}
     if path.exists() and not fresh:
-        result = load(path)
-        if all(result.attrs.get(name) == value for name, value in asked.items()):
-            print(f"{case.name}: reused from {path}", flush=True)
-            return result
+        try:
+            result = load(path)
+        except ValueError as error:
+            print(error, flush=True)
+        else:
+            if all(result.attrs.get(name) == value for name, value in asked.items()):
+                print(f"{case.name}: reused from {path}", flush=True)
+                return result
     print(f"{case.name}: running", flush=True)
     start = time.perf_counter()
     result = case.simulate()
@@ -39,9 +51,7 @@ def obtain(case, folder: Path, fresh: bool = False) -> Result:
         raise KeyboardInterrupt(result.attrs["stopped"])
     seconds = time.perf_counter() - start
     result.to_xarray().attrs.update(asked, seconds=seconds)
-    partial = path.with_suffix(".partial.h5")  # a half-written file is never taken for a result
-    result.save(partial, overwrite=True)
-    partial.replace(path)
+    result.save(path, overwrite=True)
     print(f"{case.name}: {seconds:.1f} s, {result.attrs['stopped']}", flush=True)
     return result
 

@@ -1,4 +1,4 @@
-"""What is done with results: saved first, whatever happens; then drawn and shown.
+"""What is done with results: saved first, whatever happens; then shown and drawn.
 
 A simulation may have taken days: nothing that can fail stands between its end and the file, and
 what fails after that says so in a sentence.
@@ -9,8 +9,11 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
+from ..files.look import is_hdf5
+from ..files.writable import check_writable
 from ..results.join import join_gases
-from ..results.result import Result, check_writable
+from ..results.result import Result
+from ..running.progress import interruptible
 
 PICTURES = (".png", ".pdf", ".svg")
 RESULTS = (".h5", ".hdf5", ".nc")
@@ -28,10 +31,12 @@ def check_files(out: str | None, plot: str | None) -> None:
 
 
 def check_picture(path: str | Path) -> Path:
-    """The path, if a picture may be written there (an older one is replaced)."""
+    """The path, if a picture may be written there (an older one is replaced, but no data)."""
     path = Path(path)
     if path.suffix not in PICTURES:
         raise ValueError(f"the name of a picture ends in {', '.join(PICTURES)}; got {path}.")
+    if path.is_file() and is_hdf5(path):
+        raise FileExistsError(f"{path} holds data, not a picture; choose another name.")
     return check_writable(path, overwrite=True)
 
 
@@ -43,7 +48,7 @@ def picture_of(file: Path) -> Path:
 def keep(
     results: dict[str, Result], out: str | None, plot: str | None, *, join: bool, spare: str
 ) -> int:
-    """Save, draw and show results by gas; the exit status, 1 if any of that failed.
+    """Save, show and draw results by gas; the exit status, 1 if any of that failed.
 
     Arguments: the files asked for; `join` puts the gases side by side; `spare` names the file of a
     result that nobody asked to save and that cannot be shown.
@@ -56,12 +61,14 @@ def keep(
         except Exception as error:
             parts = {f"-{gas}": result for gas, result in results.items()}
             failed = complain("the gases cannot be put side by side, each is kept alone", error)
+    if out is not None:
+        with interruptible():  # one Ctrl-C too many does not lose a result
+            for suffix, result in parts.items():
+                failed |= save(result, extended(out, suffix))
     for suffix, result in parts.items():
-        if out is not None:
-            failed |= save(result, extended(out, suffix))
+        failed |= show(result, None if out else Path(f"{spare}{suffix}.h5"))
         if plot is not None:
             failed |= draw(result, extended(plot, suffix))
-        failed |= show(result, None if out else Path(f"{spare}{suffix}.h5"))
     return int(failed)
 
 

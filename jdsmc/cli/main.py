@@ -2,6 +2,7 @@
 
 import os
 import sys
+import warnings
 from pathlib import Path
 
 from ..errors import FaultError
@@ -42,7 +43,7 @@ def main(arguments: list[str] | None = None) -> int:
     never_fail_to_print()
     try:
         status = command(list(sys.argv[1:] if arguments is None else arguments))
-        sys.stdout.flush()
+        print(end="", flush=True)  # unlike sys.stdout.flush, also if whoever called has closed it
     except FaultError as error:
         return told(error, 1)
     except BrokenPipeError:
@@ -110,7 +111,11 @@ def shown(name: str, words: list[str]) -> int:
         print(parser.format_help(), end="")
         return 0
     asked = parser.parse_args(words)
-    result = load(asked.file)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", UserWarning)
+        result = load(asked.file)
+    for warning in caught:
+        print(f"jdsmc: {warning.message}", file=sys.stderr)
     if name == "show" and (asked.csv or asked.along):
         return print_csv(result, asked.along)
     if name == "show":

@@ -4,7 +4,7 @@ import csv
 
 import numpy as np
 
-from ..results.result import check_writable
+from ..files.writable import check_writable
 from ..theory import boltzmann
 from ..views.page import Block, Page, as_text
 from .arguments import Parser

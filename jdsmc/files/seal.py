@@ -6,10 +6,12 @@ HDF5 knows of, where every reader of HDF5 ignores it.
 """
 
 import contextlib
+import glob
 import hashlib
 import os
 import secrets
 import shutil
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -19,17 +21,22 @@ LENGTH = len(MARK) + 64 + 1
 
 PIECE = 1 << 24
 
+DEAD = 3600.0
+"""Seconds after which nobody still writes to a file put aside: its process was killed."""
+
 
 def write(
-    path: Path, fill: Callable[[Path], None], *, overwrite: bool, previous: Path | None = None
+    path: Path, fill: Callable[[Path], object], *, overwrite: bool, previous: Path | None = None
 ) -> None:
     """Make a sealed file in one step: at any instant the path holds a whole file or what it held.
 
-    Arguments: the path; what writes a file to the path that it is given; False to raise
+    Arguments: the path; what writes a file to the path that it is given (bytes that are ready: HDF5
+    itself, writing to a disk that fills, may bring the program down later); False to raise
     FileExistsError rather than replace a file; where to keep the file that is replaced, if any.
     Raises what `fill` raises and OSError; nothing is left behind then.
     """
-    aside = path.with_name(f".{path.name}.{os.getpid()}-{secrets.token_hex(4)}.partial")
+    path = path.resolve() if overwrite else path  # what a link stands for is replaced, not the link
+    aside = beside(path)
     try:
         fill(aside)
         _close(aside)
@@ -41,7 +48,13 @@ def write(
             _place(aside, path)
         _sync_folder(path.parent)
     finally:
-        aside.unlink(missing_ok=True)
+        _remove(aside)
+        _remove_dead(path)
+
+
+def beside(path: Path) -> Path:
+    """A name in the same folder that nobody has, short enough wherever the path's own is."""
+    return path.with_name(f"{_start(path)}{os.getpid()}-{secrets.token_hex(4)}.partial")
 
 
 def is_sealed(path: Path) -> bool:
@@ -84,25 +97,53 @@ def _close(path: Path) -> None:
 
 def _same_file(path: Path, other: Path) -> None:
     """Let a second name stand for a file, in one step; a copy where there are no links."""
-    aside = other.with_name(f".{other.name}.{os.getpid()}.partial")
-    aside.unlink(missing_ok=True)
+    aside = beside(other)
     try:
-        os.link(path, aside)
-    except OSError:
-        shutil.copyfile(path, aside)
-    os.replace(aside, other)
+        try:
+            os.link(path, aside)
+        except OSError:
+            shutil.copyfile(path, aside)
+        os.replace(aside, other)
+    finally:  # it stays if both names were those of one file already
+        _remove(aside)
 
 
 def _place(aside: Path, path: Path) -> None:
     """Give a file its name; FileExistsError if another has it, also one that came meanwhile."""
     try:
-        os.link(aside, path)
+        try:
+            os.link(aside, path)
+        except FileExistsError:
+            raise
+        except OSError:  # a disk without links: hold the name, then fill it
+            with path.open("xb"):
+                pass
+            try:
+                os.replace(aside, path)
+            except OSError:
+                _remove(path)
+                raise
     except FileExistsError:
         raise FileExistsError(f"{path} exists; choose another name or delete it first.") from None
-    except OSError:  # a disk without links
-        with path.open("xb"):
-            pass
-        os.replace(aside, path)
+
+
+def _start(path: Path) -> str:
+    """How the names of files put aside for this path begin."""
+    return f".{path.name[:40]}."
+
+
+def _remove(path: Path) -> None:
+    """Delete a file if it is there; what cannot be deleted hides no other error."""
+    with contextlib.suppress(OSError):
+        path.unlink(missing_ok=True)
+
+
+def _remove_dead(path: Path) -> None:
+    """Delete what writers of this path have left that were killed."""
+    with contextlib.suppress(OSError):
+        for old in path.parent.glob(f"{glob.escape(_start(path))}*.partial"):
+            if old.stat().st_mtime < time.time() - DEAD:
+                _remove(old)
 
 
 def _sync_folder(folder: Path) -> None:

@@ -12,6 +12,8 @@ import xarray as xr
 
 from .. import views
 from ..estimate import Estimate
+from ..files.writable import check_writable
+from . import stored
 from .columns import columns, write_csv
 from .rebuild import rebuilt
 from .sensitivity import Sensitivity
@@ -179,10 +181,12 @@ class Result:
         return rebuilt(json.loads(self._tree.attrs["specification"]), classes)
 
     def save(self, path: str | Path, overwrite: bool = False) -> Path:
-        """Write a NetCDF4 (HDF5) file; raises FileExistsError rather than replace one."""
-        path = check_writable(path, overwrite)
-        self._tree.to_netcdf(path, engine="h5netcdf", mode="w")
-        return path
+        """Write a NetCDF4 (HDF5) file, whole or not at all; returns its path.
+
+        Raises FileExistsError rather than replace a file, and OSError. A seal at its end, which
+        readers of HDF5 pass over, shows to `jdsmc.load` whether the file was changed.
+        """
+        return stored.write(self._tree, path, overwrite)
 
     def plot(self, path: str | Path | None = None):
         """Draw the result; returns the matplotlib figure, saved to `path` if given."""
@@ -202,38 +206,11 @@ class Result:
         return f"<b>{escape(str(self.attrs.get('scene', '')))}</b>{views.html(self)}"
 
 
-def check_writable(path: str | Path, overwrite: bool = False) -> Path:
-    """The path, if a file may be created there; a clear error otherwise, before any work."""
-    path = Path(path)
-    if path.exists() and not overwrite:
-        raise FileExistsError(f"{path} exists; choose another name or delete it first.")
-    if not path.parent.is_dir():
-        raise FileNotFoundError(f"the folder {path.parent} of the output file does not exist.")
-    try:
-        existed = path.exists()
-        with path.open("ab"):
-            pass
-        if not existed:
-            path.unlink()
-    except OSError as error:
-        raise PermissionError(f"cannot write {path}: {error.strerror}.") from None
-    return path
-
-
 def load(path: str | Path) -> Result:
     """Read a file written by `Result.save` or the command line.
 
-    Raises FileNotFoundError, or ValueError if it is no jdsmc file.
+    Raises FileNotFoundError, or ValueError for a file that is no result, that was changed since it
+    was written, or that is of another schema. Warns of a file without the seal of jdsmc: saved by
+    another program, or cut, it cannot be verified.
     """
-    path = Path(path)
-    if not path.is_file():
-        raise FileNotFoundError(f"there is no file {path}.")
-    try:
-        tree = xr.open_datatree(path, engine="h5netcdf")
-    except (OSError, ValueError):
-        raise ValueError(f"{path} is not an HDF5 file written by jdsmc.") from None
-    with tree:
-        tree = tree.load()
-    if "jdsmc_version" not in tree.attrs:
-        raise ValueError(f"{path} was not written by jdsmc.")
-    return Result(tree)
+    return Result(stored.read(path))

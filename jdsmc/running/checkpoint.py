@@ -1,5 +1,6 @@
 """A run kept in a file from time to time, to go on from."""
 
+import io
 import json
 import time
 import warnings
@@ -13,8 +14,8 @@ import numpy as np
 from .. import check
 from ..files import seal, tree
 from ..files.lock import Lock
+from ..files.writable import check_writable
 from ..results.rebuild import rebuilt
-from ..results.result import check_writable
 from ..scenarios.base import AbstractScene
 from .provenance import processor, specification, version
 from .session import Session
@@ -24,6 +25,9 @@ EVERY = 300.0
 
 SHARE = 0.01
 """Largest share of a run that is spent on writing."""
+
+MOST_OBJECTS = 100_000
+"""Arrays of a checkpoint: those of derivatives are many."""
 
 KIND, SCHEMA = "jdsmc checkpoint", 1
 
@@ -68,10 +72,13 @@ class Keeper:
         said = self._told | {"limits": session.limits.given, "stopped": stopped}
         said |= {"made_by": made_by(), "spent": session.spent}
 
+        content = io.BytesIO()  # over a disk that fills HDF5 would crash the program
+        with h5py.File(content, "w") as file:
+            file.attrs.update({"kind": KIND, "schema": SCHEMA, "run": json.dumps(said)})
+            tree.write(file.create_group("state"), plain(session))
+
         def fill(path: Path) -> None:
-            with h5py.File(path, "w") as file:
-                file.attrs.update({"kind": KIND, "schema": SCHEMA, "run": json.dumps(said)})
-                tree.write(file.create_group("state"), plain(session))
+            path.write_bytes(content.getbuffer())
 
         seal.write(self.path, fill, overwrite=True, previous=previous(self.path))
         self._last = time.monotonic()
@@ -133,6 +140,7 @@ def told(path: Path) -> dict[str, Any]:
     if not seal.is_whole(path):
         raise ValueError(f"{path} was changed after it was written, or the disk failed.{hint}")
     with h5py.File(path, "r") as file:
+        look.structure(file, most_objects=MOST_OBJECTS)
         if file.attrs.get("kind") != KIND:
             raise ValueError(f"{path} is no checkpoint, but what `run` returned: it holds no gas.")
         if file.attrs["schema"] != SCHEMA:

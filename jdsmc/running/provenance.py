@@ -4,8 +4,10 @@ import contextlib
 import dataclasses
 import hashlib
 import json
+import os
 import platform
 import subprocess
+import tomllib
 from functools import cache
 from importlib import metadata
 from pathlib import Path
@@ -98,12 +100,15 @@ def processor() -> str:
 def commit() -> str:
     """The git commit of the package's own checkout, "+" if changed, or "unknown"."""
     root = Path(__file__).parents[2]
-    if not (root / ".git").exists():  # installed, perhaps below a repository of the user's
+    if not _is_checkout(root):
         return "unknown"
+    # a user's GIT_DIR, GIT_INDEX_FILE and the like speak of another repository
+    own = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")}
 
     def git(*arguments):
         return subprocess.run(
             ["git", f"--git-dir={root / '.git'}", f"--work-tree={root}", *arguments],
+            env=own,
             capture_output=True,
             text=True,
             check=True,
@@ -115,3 +120,12 @@ def commit() -> str:
         return git("rev-parse", "HEAD") + ("+" if changed else "")
     except (OSError, subprocess.SubprocessError):
         return "unknown"
+
+
+def _is_checkout(root: Path) -> bool:
+    """True for this project's own, not for a user's that has a copy of the package in it."""
+    try:
+        project = tomllib.loads((root / "pyproject.toml").read_text())["project"]["name"]
+    except (OSError, ValueError, LookupError, TypeError):
+        return False
+    return project == "jdsmc" and (root / ".git").exists()

@@ -130,4 +130,4 @@ def test_unwritable_file(monkeypatch, refused):
 @pytest.mark.parametrize("command", ["show", "plot"])
 def test_files_that_cannot_be_read(command, folder, refused):
     (folder / "text.h5").write_text("not HDF5")
-    assert "text.h5 is not an HDF5 file written by jdsmc" in refused(f"{command} text.h5")
+    assert "text.h5 is not a result file that can be read" in refused(f"{command} text.h5")

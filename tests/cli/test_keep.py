@@ -2,6 +2,7 @@
 
 import io
 import os
+import signal
 import subprocess
 import sys
 
@@ -10,6 +11,7 @@ import pytest
 import jdsmc
 from jdsmc.cli import main
 from jdsmc.cli.keep import picture_of
+from jdsmc.files import seal
 from jdsmc.results import Result
 
 
@@ -164,3 +166,46 @@ def test_a_reader_that_has_seen_enough(measured):
     )
     os.close(write)
     assert (done.returncode, done.stderr) == (0, b"")
+
+
+def test_a_picture_never_replaces_data(measured, status, capsys):
+    """Whatever the file is called, and by whichever command."""
+    measured.save("x.png")
+    for line in ("plot x.png --out x.png", "run shear --plot x.png"):
+        assert status(line) == 2
+        assert "x.png holds data, not a picture" in capsys.readouterr().err
+    assert jdsmc.load("x.png").attrs["run"] == measured.attrs["run"]
+
+
+def test_ctrl_c_while_saving(asked, measured, monkeypatch, status):
+    """The file is written all the same."""
+    usual = signal.signal(signal.SIGINT, signal.default_int_handler)
+    fill = Result.save
+
+    def save(self, path):
+        signal.raise_signal(signal.SIGINT)
+        return fill(self, path)
+
+    monkeypatch.setattr(Result, "save", save)
+    try:
+        assert status("run shear --out x.h5") == 0
+    finally:
+        signal.signal(signal.SIGINT, usual)
+    assert jdsmc.load("x.h5").attrs["run"] == measured.attrs["run"]
+
+
+def test_a_terminal_that_is_gone(measured, monkeypatch):
+    """Closed by whoever called: nothing to print to, and no error about that."""
+    measured.save("x.h5")
+    monkeypatch.setattr(sys, "stdout", None)
+    assert main(["show", "x.h5"]) == 0
+
+
+def test_a_file_without_a_seal(measured, folder, status, capsys):
+    """It is shown, with a sentence instead of Python's warning."""
+    written = measured.save("x.h5").read_bytes()
+    (folder / "x.h5").write_bytes(written[: -seal.LENGTH])
+    assert status("show x.h5") == 0
+    out, err = capsys.readouterr()
+    assert "No steady values" in out and err.startswith("jdsmc: x.h5 has no seal")
+    assert err.count("\n") == 1

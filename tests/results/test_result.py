@@ -7,8 +7,9 @@ import pytest
 import xarray as xr
 
 import jdsmc
+from jdsmc.files.writable import check_writable
 from jdsmc.results.join import join_gases
-from jdsmc.results.result import Result, check_writable
+from jdsmc.results.result import Result
 from jdsmc.scenarios import UniformShear
 
 

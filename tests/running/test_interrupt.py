@@ -7,6 +7,7 @@ import threading
 import pytest
 
 from jdsmc.running.engine import Engine
+from jdsmc.running.progress import interruptible
 
 from .small import assert_same, simulate
 
@@ -72,3 +73,11 @@ def test_in_a_thread():
     thread.start()
     thread.join()
     assert_same(results[0], simulate(duration=1.0))
+
+
+def test_a_handler_that_was_set_from_c(monkeypatch):
+    """Python cannot put it back, so it stays, and the run works without."""
+    monkeypatch.setattr(signal, "getsignal", lambda _: None)
+    monkeypatch.setattr(signal, "signal", lambda *_: pytest.fail("the handler was replaced"))
+    with interruptible() as interrupted:
+        assert not interrupted.is_set()
