@@ -12,7 +12,7 @@ import jax
 import numpy as np
 
 from .. import check
-from ..files import seal, tree
+from ..files import look, seal, tree
 from ..files.lock import Lock
 from ..files.writable import check_writable
 from ..results.rebuild import rebuilt
