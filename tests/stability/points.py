@@ -85,7 +85,7 @@ def steps_and_sizes() -> list[Point]:
         )
         for size in (32, 64, 97, 256, 20_000)
     ]
-    many = {"n_particles": 1_000_000, "collisions": 1.0}
+    many = {"n_particles": 1_000_000, "collisions": 0.6, "steps_per_record": 1}
     still = Point(
         *("particles", "1e+06"),
         *(lambda: HomogeneousCooling(ELASTIC), many),
