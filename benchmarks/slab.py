@@ -63,7 +63,7 @@ def measure(quick: bool) -> dict:
 
 
 def _scene():
-    return FourierFlow(InelasticHardSpheres(1.0), COLD, np.array([0.0]))
+    return FourierFlow(InelasticHardSpheres(1.0), COLD, np.array([0.0]), layers=100)
 
 
 def _options(n_particles: int, time_step: float, splitting: str, steps: int) -> Options:

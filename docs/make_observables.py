@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from jdsmc.measure.observable import CLOCKS, Observable
-from jdsmc.running.assemble import STEADY_FROM
+from jdsmc.running.assemble import DEGREES_OF_FREEDOM, STEADY_FROM
 from jdsmc.scenarios import SCENES
 from jdsmc.scenarios.base import command_of
 
@@ -20,7 +20,8 @@ HEAD = """\
 Made by `python docs/make_observables.py` from the scenes themselves. Names in results, files,
 pictures and on the command line. Units: see the README; "1" is a pure number. n = 1; averages are
 over particles and realizations, sums come first and ratios last. Each name has `<name>_error`, one
-standard error.
+standard error; `result[name].interval(0.95)` is an interval that holds the truth with at least that
+probability, by Student's t with `degrees_of_freedom`.
 
 A file has steady values at its root, over the swept dimensions (`gas`, `restitution`, ...); time
 series in the group `series`; velocity distributions, against C = V/√(2T/m), in `distribution`; in
@@ -72,7 +73,7 @@ As of `CoolingDisks`, the disks moving from event to event.""",
 
 def page() -> str:
     """The whole page."""
-    parts = [HEAD, EVERY_RUN, table([*CLOCKS, *STEADY_FROM])]
+    parts = [HEAD, EVERY_RUN, table([*CLOCKS, *STEADY_FROM, DEGREES_OF_FREEDOM])]
     for scene in SCENES:
         parts.append(f"## {scene.__name__} (`jdsmc run {command_of(scene)}`)")
         parts += [NOTES[scene.__name__]] if scene.__name__ in NOTES else []

@@ -5,6 +5,9 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
+from scipy.stats import t as student
+
+from . import check
 
 _anonymous = itertools.count()
 
@@ -15,15 +18,25 @@ class Estimate:
     `value, error = estimate` takes it apart. `a - b`, `a / b`, `a ** 2`, `estimate.map(np.log)` and
     `combine(function, a, b)` propagate the error by a jackknife: what stems from one run is
     correlated through its realizations, what stems from different runs is independent.
+    `estimate.interval(0.95)` holds the truth with at least this probability (Student's t).
     """
 
     __array_ufunc__ = None  # array - estimate comes here, too, instead of making an array of them
 
-    def __init__(self, value, error, left_out: dict[Any, np.ndarray] | None = None, points=None):
+    def __init__(
+        self,
+        value,
+        error,
+        left_out: dict[Any, np.ndarray] | None = None,
+        points=None,
+        freedom: dict[Any, Any] | None = None,
+    ):
         """`left_out`: for every run, the values with one realization left out (R, ...).
 
         `points`: a number for each element, equal for those measured on the same gas (a profile, a
-        correlation in time); by default every element is a gas of its own.
+        correlation in time); by default every element is a gas of its own. `freedom`: the degrees
+        of freedom of each run's share of the error, R - 1 if not said; without a run the error
+        counts as known.
         """
         self.value, self.error = value, error
         shape = np.shape(value)
@@ -31,7 +44,9 @@ class Estimate:
         if left_out is None:  # two pseudo-realizations that give just this error
             both = np.stack([np.subtract(value, error), np.add(value, error)])
             left_out = {next(_anonymous): both}
+            freedom = dict.fromkeys(left_out, np.inf)
         self._left_out = left_out
+        self._freedom = freedom or {run: len(x) - 1.0 for run, x in left_out.items()}
 
     def __iter__(self) -> Iterator:
         return iter((self.value, self.error))
@@ -46,7 +61,12 @@ class Estimate:
             for run, x in self._left_out.items()
         }
         value, error = (np.asarray(x)[index] for x in (self.value, self.error))
-        return Estimate(value, error, left_out, points)
+        shape = np.shape(self.value)
+        freedom = {
+            new: np.broadcast_to(self._freedom[run], shape)[index]
+            for new, run in zip(left_out, self._left_out, strict=True)
+        }
+        return Estimate(value, error, left_out, points, freedom)
 
     def map(self, function: Callable) -> "Estimate":
         """A smooth function of it, element by element."""
@@ -88,6 +108,38 @@ class Estimate:
     def __float__(self) -> float:
         return float(self.value)
 
+    @property
+    def degrees_of_freedom(self) -> float | np.ndarray:
+        """Of its error: realizations less one, infinite for an error that was given.
+
+        A run prints the larger of two errors (`docs/method.md`): these are the degrees of freedom
+        of the smaller sample, so that an interval holds the truth at least as often as it says.
+        Of several runs: Welch (1947) and Satterthwaite (1946), (Σ s²)²/Σ(s⁴/ν).
+        """
+        shape = np.shape(self.value)
+        if len(self._freedom) == 1:
+            found = np.broadcast_to(next(iter(self._freedom.values())), shape)
+            return found if shape else float(found)
+        least = np.full(shape, np.inf)
+        total, each = np.zeros(shape), np.zeros(shape)
+        for run, values in self._left_out.items():
+            freedom = np.broadcast_to(self._freedom[run], shape)
+            variance = (len(values) - 1) * np.var(values, axis=0)
+            total, each = total + variance, each + variance**2 / freedom
+            least = np.minimum(least, freedom)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            found = np.where(total > 0, np.fmax(total**2 / each, least), least)
+        return found if shape else float(found)
+
+    def interval(self, level: float = 0.95) -> tuple:
+        """Ends of the interval that holds the truth with probability `level` or more.
+
+        Student's t with `degrees_of_freedom`. Raises ValueError unless 0 < level < 1.
+        """
+        check.scalar("level", level, 0.0, 1.0, high_included=False)
+        reach = student.ppf(0.5 + 0.5 * level, self.degrees_of_freedom) * self.error
+        return self.value - reach, self.value + reach
+
     def distance(self, truth) -> float | np.ndarray:
         """How many standard errors it lies above a number, or above another estimate."""
         value, error = self - truth
@@ -111,7 +163,7 @@ def combine(function: Callable, *inputs) -> Estimate:
     values = [x.value if isinstance(x, Estimate) else x for x in inputs]
     value = function(*values)
     runs = {run for x in inputs if isinstance(x, Estimate) for run in x._left_out}
-    left_out = {}
+    left_out, freedom = {}, {}
     variance = np.zeros(np.shape(value))
     for run in runs:
         changed = [
@@ -131,12 +183,18 @@ def combine(function: Callable, *inputs) -> Estimate:
                 for r in range(counts.pop())
             ]
         )
-        left_out[run] = replicas
+        left_out[run], freedom[run] = replicas, _least_freedom(run, inputs, np.shape(value))
         variance = variance + (len(replicas) - 1) * np.var(replicas, axis=0)
     error = np.sqrt(variance)
     alike = [x._points for x in inputs if isinstance(x, Estimate)]
     points = next((x for x in alike if np.shape(x) == np.shape(value)), None)
-    return Estimate(value, error if np.ndim(error) else float(error), left_out, points)
+    return Estimate(value, error if np.ndim(error) else float(error), left_out, points, freedom)
+
+
+def _least_freedom(run, inputs, shape: tuple[int, ...]):
+    """Degrees of freedom of a run's share: element by element where shapes allow it."""
+    each = [x._freedom[run] for x in inputs if isinstance(x, Estimate) and run in x._freedom]
+    return np.min([x if np.shape(x) == shape else np.min(x) for x in each], axis=0)
 
 
 def format_estimate(value: float, error: float) -> str:

@@ -26,6 +26,14 @@ LARGEST_X = 4.2
 TABLE = 512
 """Steps of the table; doubling it moves no moment by more than 1e-5."""
 
+STEEPEST = 20.0, 5.0
+"""Largest ε_- and ε_+ of the tables: moments are right to 5e-4 up to there, and off by 1e-3 at
+ε_- = 26, by 6e-3 at ε_+ = 8. Most speeds then lie between the first two entries, or beyond the last
+random number."""
+
+FLATTEST = 1e-4
+"""Smallest ε of a table: eq. (18) for ε → 0 is a Maxwellian, and to 3e-4 it is one here."""
+
 _LOG_SPEED = np.linspace(np.log(1e-4), np.log(2e3), 2048)
 """Logarithms of u: the survival function is computed at these, from 1 down to below 1e-8."""
 _LOG_DEPTH = np.linspace(np.log(1e-8), np.log(1e4), 320)
@@ -108,6 +116,20 @@ def wall_gradients(cold_temperature, length):
     return hot / root, hot
 
 
+def check_gradients(cold_temperature: float, length: float) -> None:
+    """Raise ValueError for type II walls whose tables would be wrong."""
+    root = np.sqrt(cold_temperature)
+    hot = (15.0 * np.pi**0.5 / 8.0) * (1.0 - root) / length
+    excess = max(hot / root / STEEPEST[0], hot / STEEPEST[1])
+    if excess > 1.0:
+        raise ValueError(
+            f'wall = "bgk" at cold_temperature = {cold_temperature:g} and length = {length:g} has '
+            f"the gradients ε = {hot / root:.3g} and {hot:.3g} at its walls, and at most "
+            f"{STEEPEST[0]:g} and {STEEPEST[1]:g} are right: the allowed range of length is "
+            f"[{excess * length:.3g}, 1000]."
+        )
+
+
 def flux_density(gradient: Scalar, cold: bool, speed):
     """|u| φ(u) of eq. (18) up to a constant factor, for speeds u > 0 away from the wall.
 
@@ -129,6 +151,7 @@ def flux_density(gradient: Scalar, cold: bool, speed):
 
 def speed_table(gradient: Scalar, cold: bool) -> Float[Array, " steps"]:
     """u at TABLE + 1 equal steps of x = √(-ln P), P being the probability of a larger u."""
+    gradient = jnp.maximum(gradient, FLATTEST)
     speed = jnp.asarray(np.exp(_LOG_SPEED), gradient.dtype)
     density = flux_density(gradient, cold, speed) * speed
     pieces = 0.5 * (density[1:] + density[:-1])

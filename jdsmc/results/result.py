@@ -18,6 +18,9 @@ from .columns import columns, write_csv
 from .rebuild import rebuilt
 from .sensitivity import Sensitivity
 
+FREEDOM = "degrees_of_freedom"
+"""Of the printed errors of each point: realizations less one (blocks, of correlations in time)."""
+
 
 class Result:
     """What a run measured.
@@ -54,7 +57,12 @@ class Result:
         )
         points = np.broadcast_to(points, value.shape)
         value, error = (x if x.ndim else float(x) for x in (value, error))
-        return Estimate(value, error, left_out, points)
+        freedom = None
+        if left_out is not None and FREEDOM in steady:
+            known = steady[FREEDOM].values
+            known = known.reshape(known.shape + (1,) * (np.ndim(value) - known.ndim))
+            freedom = dict.fromkeys(left_out, np.broadcast_to(known, np.shape(value)))
+        return Estimate(value, error, left_out, points, freedom)
 
     def __contains__(self, name: object) -> bool:
         steady = self.steady

@@ -7,7 +7,7 @@ from .. import sweep
 from ..derivatives.steady import steady_derivatives
 from ..derivatives.transient import transient_derivatives
 from ..measure.observable import CLOCKS, COLLISION_RATIO, COLLISIONS, TIME, Observable
-from ..results.result import Result
+from ..results.result import FREEDOM, Result
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
 from ..stats import jackknife
@@ -20,6 +20,7 @@ STEADY_FROM = (
     Observable("steady_from_time", "time from which the gas was measured", "τ0"),
     Observable("steady_from_collisions", "collisions per particle before it was measured"),
 )
+DEGREES_OF_FREEDOM = Observable(FREEDOM, "degrees of freedom of the errors of steady values")
 
 
 class Labels:
@@ -133,7 +134,9 @@ def _steady(scene, labels, session, settled, attrs: dict) -> tuple[dict, dict]:
     for one, clock in zip(STEADY_FROM, ("time", "collisions"), strict=True):
         at_start = [_at_start(history[clock][p], starts[p]) for p in points]
         columns[one.name] = np.where(settled, at_start, np.nan)
-    groups = {"/": labels.dataset(columns, (*scene.reports, *STEADY_FROM))}
+    freedom = [len(next(iter(one[2].values()))) - 1.0 if one else np.nan for one in estimates]
+    columns[FREEDOM] = np.array(freedom)
+    groups = {"/": labels.dataset(columns, (*scene.reports, *STEADY_FROM, DEGREES_OF_FREEDOM))}
     left_out = _each(_as_many([one and one[2] for one in estimates]))
     groups["/left_out"] = labels.dataset(left_out, scene.reports, ("realization",))
     sums, dims = (
@@ -296,6 +299,8 @@ def _distribution(scene, labels, history: History, starts, settled, records: int
         columns = {}
         for name, values in densities.items():
             columns[name] = np.mean(values, axis=0)
-            columns[f"{name}_error"] = np.std(values, axis=0, ddof=1) / np.sqrt(len(values))
+            error = np.std(values, axis=0, ddof=1) / np.sqrt(len(values))
+            # where nobody was seen the density may be anything that is rare enough
+            columns[f"{name}_error"] = np.where(np.any(values != 0, axis=0), error, np.nan)
         found.append(columns)
     return labels.dataset(_each(found), scene.sampled)

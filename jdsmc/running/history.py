@@ -1,5 +1,6 @@
 """Records of a run on the host: times, collisions, averages over any window."""
 
+import equinox as eqx
 import numpy as np
 
 from ..errors import FaultError
@@ -7,7 +8,7 @@ from ..scenarios.base import AbstractScene, weighted_means
 from .batch import point_of
 from .growing import Growing
 
-CLOCKS = ("elapsed", "accepted", "energy_lost", "time", "collisions", "plain_time")
+CLOCKS = ("elapsed", "accepted", "energy_lost", "time", "collisions")
 
 
 class History:
@@ -32,6 +33,7 @@ class History:
     def append(self, record, sample) -> None:
         """Add the records and the sample of one chunk."""
         tally = record.tally
+        record = self._added_up(record)
         each = [scene.averages(point_of(record, p)) for p, scene in enumerate(self.scenes)]
         new = {name: np.stack([averages[name] for averages in each]) for name in each[0]}
         new |= {
@@ -39,7 +41,13 @@ class History:
             "accepted": tally.accepted / self.n_particles,
             "energy_lost": tally.energy_lost / self.n_particles,
         }
-        new["time"] = self._continued("time", new.get("plain_time", new["elapsed"]))
+        if "log_plain_time" in new:
+            new["log_time"] = self._log_continued(new.pop("log_plain_time"))
+            with np.errstate(over="ignore"):
+                new["time"] = np.expm1(new["log_time"])
+                self._totals["time"] = np.expm1(self._totals["log_time"])
+        else:
+            new["time"] = self._continued("time", new["elapsed"])
         new["collisions"] = self._continued("collisions", new["accepted"])
         self._columns.append(new)
         if sample is not None:
@@ -62,6 +70,21 @@ class History:
         self._columns.take(state["columns"])
         self._totals = dict(state["totals"])
         self._samples.take(state["samples"])
+
+    def _added_up(self, record):
+        """The records with totals since the start for the fields that are increments."""
+        for name in self.scenes[0].running:
+            more = vars(record)[name]
+            total = self._continued(name, more) + more
+            record = eqx.tree_at(lambda r, name=name: vars(r)[name], record, total)
+        return record
+
+    def _log_continued(self, log_time: np.ndarray) -> np.ndarray:
+        """ln(1 + t) before each record, from the logarithms of how long records lasted."""
+        start = self._totals.get("log_time", np.zeros(log_time.shape[:2]))
+        total = np.logaddexp.accumulate(np.concatenate([start[..., None], log_time], 2), axis=2)
+        self._totals["log_time"] = total[..., -1]
+        return total[..., :-1]
 
     def _continued(self, name: str, increments: np.ndarray) -> np.ndarray:
         """Running total before each record; the total so far is kept from chunk to chunk."""
@@ -157,10 +180,12 @@ class History:
         """Averages of every realization of one point at the mean times of the records.
 
         Realizations have their own clocks (their time step follows their own temperature); each is
-        interpolated linearly in time to the mean clock, as far as all have come.
+        interpolated linearly in time to the mean clock, as far as all have come; in the logarithm
+        of time, and to the mean of that, where a scene gives logarithms.
         Returns: times (records,) and averages (realizations, records, ...).
         """
-        time = self["time"][point]
+        in_logs = "log_time" in self._columns
+        time = self["log_time" if in_logs else "time"][point]
         common = np.mean(time, axis=0)
         common = common[common <= np.min(time[:, -1])]
         series = {name: self[name][point] for name in self.names}
@@ -172,7 +197,9 @@ class History:
         elif "local_rate" in series:
             steps = series["local_rate"] * elapsed
             series["local_collisions"] = np.cumsum(steps, axis=1) - steps
-        return common, {
+        with np.errstate(over="ignore"):
+            plain = np.expm1(common) if in_logs else common
+        return plain, {
             name: np.stack([_interpolate(common, *one) for one in zip(time, values, strict=True)])
             for name, values in series.items()
         }

@@ -58,7 +58,8 @@ def run(
         collisions: time to simulate, in accepted collisions per particle.
         observable, rtol: the precision asked for, one number or one for each observable; by
             default of the scene's main observables, and 0.001 for most scenes.
-        budget: most collisions per particle to spend.
+        budget: most collisions per particle to spend; a gas that hardly collides ends after ten
+            times the steps that hard spheres would need for them.
         time_step: largest time step in (0, 1], 0.05 for most scenes, as a fraction of τ(T) and of
             the scene's own times (1/shear_rate) in homogeneous gases and sheared slabs, of τ0 in a
             Fourier flow; it is shortened so that no pair is likelier to collide than the pair

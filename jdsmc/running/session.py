@@ -16,6 +16,10 @@ from .host_engine import HostEngine
 from .limits import Limits
 from .steady import tracker_for
 
+PATIENCE, SLACK = 10.0, 1_000.0
+"""A run may take ten times as many steps as hard spheres in equilibrium would need for the
+collisions it may spend, and a thousand more: a gas that hardly collides ends too."""
+
 
 class Session:
     """What a run has come to. `advance` makes one chunk, `ending` says why to stop.
@@ -130,7 +134,9 @@ class Session:
         if due:
             self._next_look = (1.2 if self.correlated else 1.05) * self.spent
         if limits.fixed:
-            return "the asked time was simulated" if self.progress() >= 1.0 else ""
+            if self.progress() >= 1.0:
+                return "the asked time was simulated"
+            return "" if limits.collisions is None else self._hardly_collides(limits.collisions)
         if due and self._precise() and self.is_settled() and self._precise():
             return f"{limits.named} is known to {self.precision:.2g} (asked {limits.asked})"
         if limits.records is not None and self.history.length >= limits.records:
@@ -139,23 +145,44 @@ class Session:
                 f"{limits.records} records were made: {limits.named} is known to "
                 f"{self.precision:.2g}"
             )
-        return self._budget_ended() if self.spent >= limits.budget else ""
+        if self.spent >= limits.budget:
+            return self._budget_ended(f"{limits.budget:g} collisions per particle")
+        few = self._hardly_collides(limits.budget)
+        return self._budget_ended(few) if few else ""
 
-    def _budget_ended(self) -> str:
+    def _hardly_collides(self, wanted: float) -> str:
+        """A clause if far more steps were made than hard spheres need for so many collisions."""
+        steps = self.history.length * self.options.steps
+        if steps < PATIENCE * (wanted + SLACK) * np.sqrt(np.pi) / self.options.time_step:
+            return ""
+        return (
+            f"{steps} time steps, in which the gas made only {self.spent:.3g} of {wanted:g} "
+            "collisions per particle"
+        )
+
+    def _budget_ended(self, budget: str) -> str:
+        """What was tested when a budget ended, and what is known or must be done."""
         limits = self.limits
         if self.is_settled():
             self._look()
         else:
             self.precision = self.share = np.inf
+        drift = f"a drift of {', '.join(limits.monitored)}" if limits.monitored else "nothing"
         if np.isfinite(self.precision):
+            every = "" if self.correlated else ", and every observable for a slower change"
             return (
-                f"the budget of {limits.budget:g} collisions per particle ended: {limits.named} is "
-                f"known to {self.precision:.2g}, asked {limits.asked}"
+                f"the budget of {budget} ended: {limits.named} is known to {self.precision:.2g}, "
+                f"asked {limits.asked}; tested were {drift}{every}"
             )
         self.failed = True
+        if not self.tracker.all_measuring:
+            warm = int(np.sum(self.tracker.start < 0))
+            tested = f"the warm-up had not ended at {warm} of {len(self.tracker.start)} points"
+            tested += f", tested was {drift} only"
+        else:
+            tested = "what is measured still changes, or may change by more than its error"
         return (
-            f"no steady state within {limits.budget:g} collisions per particle: what is measured "
-            f"still changes, or may change by more than its error, {limits.slowest()}. Raise "
+            f"no steady state within {budget}: {tested}, {limits.slowest()}. Raise "
             "budget, start nearer to the steady state, or give duration."
         )
 

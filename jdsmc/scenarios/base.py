@@ -76,6 +76,8 @@ class AbstractScene(eqx.Module):
     """True if particles have places: they are then not exchangeable."""
     traced: ClassVar[bool] = True
     """False if `initial` and `advance` are plain Python on NumPy arrays (compiled otherwise)."""
+    running: ClassVar[tuple[str, ...]] = ()
+    """Fields of a record that are increments: `averages` is handed their totals since the start."""
     samples_per_record: ClassVar[int] = 1
     default_time_step: ClassVar[float] = TIME_STEP
     default_steps: ClassVar[int] = STEPS_PER_RECORD
@@ -155,8 +157,8 @@ class AbstractScene(eqx.Module):
         """What adds up: averages over the particles at each record, by name.
 
         `local_rate`, if there, is the number of collisions per particle and time in local
-        equilibrium; `plain_time`, if there, is how long each record lasted where that is not
-        `elapsed`.
+        equilibrium; `log_plain_time`, if there, is the logarithm of how long each record lasted
+        where that is not `elapsed`, and the history then has `log_time`, ln(1 + t).
         """
 
     @abstractmethod

@@ -24,11 +24,12 @@ from ..measure import conduction
 from ..measure.observable import Observable
 from ..motion.cells import populations, totals
 from ..motion.flight import Exchange, fly
-from ..motion.walls import Walls, made_before
+from ..motion.walls import Walls, check_gradients, made_before
 from ..types import Key, Profile, Scalar
 from ..units import INITIAL_TEMPERATURE
 from .approach import Approach, of_conduction
 from .base import Record
+from .layers import WIDEST, thin_layers
 from .options import Options
 from .slab import AbstractSlab, SlabState, maxwellian_at, uniform
 
@@ -38,6 +39,10 @@ FAST = 4.0
 FIRST_DENSITY, FIRST_SPEED = 5.0, 4.0
 """What the first step is made short for: probabilities per time of 5 times the rate at 4 v0, a
 density of 3 and a fast pair."""
+
+
+TOO_WIDE = 0.005
+"""Share of the heat flux that layers may carry unseen before a run remarks on it."""
 
 
 class Conduction(eqx.Module):
@@ -80,8 +85,10 @@ class FourierFlow(AbstractSlab):
         length: L in λ0, in (0, 1000].
         wall: "maxwell" (type I) or "bgk" (type II: the emitted particles come from a gas that
             conducts heat, eq. 18).
-        layers: number of layers.
-    Numbers or, for a sweep, 1-D arrays. Raises ValueError for values outside these.
+        layers: number of layers; by default so many that none is wider than half a mean free path
+            where the gas is densest (that of all points of a sweep).
+    Numbers or, for a sweep, 1-D arrays. Raises ValueError for values outside these, and before a
+    run for type II walls of a gradient that is too large (`walls.STEEPEST`).
     """
 
     command: ClassVar[str] = "fourier"
@@ -109,7 +116,14 @@ class FourierFlow(AbstractSlab):
         ("maxwell", "bgk"),
         default="maxwell",
     )
-    layers: int = count("layers across the slab", default=100)
+    layers: int = count(
+        "layers across the slab, as many as its gas needs if not said", default=None
+    )
+
+    def __post_init__(self):
+        if self.layers is None:
+            slab = self.cold_temperature, self.gravity, self.length
+            self.layers = thin_layers(*slab, jump=self.wall == "maxwell")
 
     def __check_init__(self):
         check_gas(self.gas)
@@ -137,7 +151,9 @@ class FourierFlow(AbstractSlab):
                 f"time_step = {options.time_step:g} lets a particle cross the slab of length "
                 f"{self.length:g} in one step; the allowed range is (0, {longest:.3g}]."
             )
-        return options
+        if self.wall == "bgk":
+            check_gradients(float(self.cold_temperature), float(self.length))
+        return super().fit_options(options)
 
     def approach(self, options: Options) -> Approach:
         """Diffusion of heat across the slab."""
@@ -238,6 +254,23 @@ class FourierFlow(AbstractSlab):
         return (
             f"{lost:.0f} particles hit a wall again and again within one step; reduce time_step, "
             "or gravity."
+        )
+
+    def remarks(self, series: dict[str, np.ndarray], weights: np.ndarray) -> str:
+        """Layers that are too wide: the sampled heat flux then is below that of the walls."""
+        q = self.window(series, weights)
+        walls = 0.5 * (q["heat_flux_cold_wall"] + q["heat_flux_hot_wall"])
+        lost = 1.0 - np.mean(q["mean_heat_flux"]) / np.mean(walls)
+        each = q["mean_heat_flux"] - walls
+        error = np.std(each, ddof=1) / np.sqrt(len(each)) / abs(np.mean(walls))
+        if not abs(lost) > TOO_WIDE + 5.0 * error:
+            return ""
+        densest = float(np.max(np.mean(q["density"], axis=0)))
+        return (
+            f"The heat flux sampled in the gas is {100 * lost:.1f}({100 * error:.1f})% below that "
+            f"from the walls: its {self.layers} layers are up to "
+            f"{densest * float(self.length) / self.layers:.2g} mean free paths wide; take at least "
+            f"{int(np.ceil(densest * float(self.length) / WIDEST))}."
         )
 
     def averages(self, record: FourierRecord) -> dict[str, np.ndarray]:

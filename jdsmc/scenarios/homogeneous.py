@@ -65,8 +65,9 @@ def first_majorant(gas, dtype) -> Scalar:
 class HomogeneousRecord(Record):
     """A record of a homogeneous gas.
 
-    True velocities are exp(`log_scale`) times those of the moments. `slowing`: averages over the
-    steps, relative to the start, of what collisions and their loss of energy go with.
+    `log_scale`: logarithm of what velocities were divided by before they were measured. `slowing`:
+    averages over the steps, relative to the start, of what collisions and their loss of energy go
+    with.
     """
 
     log_scale: Scalar

@@ -7,14 +7,13 @@ on the impact, say) is simulated as it is: its distribution changes for ever.
 
 from typing import ClassVar
 
-import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 
 from ..collisions.meet import Collisions
 from ..fields import derived
 from ..gases import AbstractGas
-from ..measure.moments import Distributions, moments
+from ..measure.moments import moments
 from ..measure.observable import Observable
 from ..measure.observables import REDUCED, TEMPERATURE
 from ..measure.polynomials import ISOTROPIC, Symmetry
@@ -25,18 +24,13 @@ from .approach import UNKNOWN, VELOCITIES, Approach
 from .homogeneous import AbstractHomogeneous, HomogeneousRecord, HomogeneousState
 from .options import Options
 from .pace import make_steps
-from .scaled import check_without_drag, plain_time, scaled_to_start, scaling_exponent, slowed_rates
-
-
-class CoolingState(eqx.Module):
-    """Velocities (scaled to T0 at the start of a record), majorant over v0(T), log of the scale.
-
-    The true velocities are exp(log_scale) times these.
-    """
-
-    velocity: Velocity
-    majorant: Scalar
-    log_scale: Scalar
+from .scaled import (
+    check_without_drag,
+    log_plain_time,
+    scaled_to_start,
+    scaling_exponent,
+    slowed_rates,
+)
 
 
 class HomogeneousCooling(AbstractHomogeneous):
@@ -45,7 +39,8 @@ class HomogeneousCooling(AbstractHomogeneous):
     Arguments: `gas`, any without drag.
     Steady values are those of the reduced distribution (a2, a3, ...), which there are if the gas
     has no speed of its own. The series has T/T0 against plain time (Haff's law) and `reduced_time`,
-    the time in units of τ(T)/τ(T0).
+    the time in units of τ(T)/τ(T0). After a few hundred collisions per particle T leaves the range
+    of floats, and is 0 at a time of infinity: `log_temperature` and `log_time` go on.
     """
 
     command: ClassVar[str] = "cooling"
@@ -57,10 +52,12 @@ class HomogeneousCooling(AbstractHomogeneous):
     evolves: ClassVar[tuple[Observable, ...]] = (
         TEMPERATURE,
         Observable("log_temperature", "ln T/T0", symbol="ln T/T0"),
+        Observable("log_time", "ln(1 + t/τ0)", symbol="ln(1 + t/τ0)"),
         Observable("reduced_time", "reduced time ∫ dt τ0/τ(T)", "τ0", symbol="reduced time"),
     )
     symmetry: ClassVar[Symmetry | None] = ISOTROPIC
     monitored: ClassVar[tuple[str, ...]] = ("fourth", "sixth", "cubed")
+    running: ClassVar[tuple[str, ...]] = ("log_scale",)
 
     gas: AbstractGas
     exponent: float | None = derived()
@@ -93,22 +90,17 @@ class HomogeneousCooling(AbstractHomogeneous):
         """A few collisions per particle."""
         return UNKNOWN if self.exponent is None else VELOCITIES
 
-    def initial(self, key: Key, options: Options) -> CoolingState:
-        """Maxwellian velocities with mean exactly zero and temperature exactly T0."""
-        start: HomogeneousState = super().initial(key, options)
-        return CoolingState(start.velocity, start.majorant, jnp.zeros((), options.dtype))
-
     def step(
         self, key: Key, velocity: Velocity, majorant: Scalar, duration: Scalar, options: Options
     ) -> tuple[Velocity, Collisions]:
         """Collisions, and nothing else."""
         return self.collide(key, velocity, majorant, duration, options)
 
-    def advance(self, key: Key, state: CoolingState, options: Options):
+    def advance(self, key: Key, state: HomogeneousState, options: Options):
         """One record: scale to T0 if that is allowed, measure, then make the steps."""
-        velocity, log_scale = centred(state.velocity), state.log_scale
+        velocity, log_scale = centred(state.velocity), jnp.zeros((), options.dtype)
         if self.exponent is not None:
-            velocity, log_scale = scaled_to_start(state.velocity, log_scale)
+            velocity, log_scale = scaled_to_start(state.velocity)
         sampled = moments(velocity)
 
         def step(key, velocity, majorant, duration):
@@ -122,19 +114,14 @@ class HomogeneousCooling(AbstractHomogeneous):
         if self.exponent is not None:
             slowing = slowed_rates(after, self.exponent)
         record = HomogeneousRecord(sampled, tally, elapsed, log_scale, slowing)
-        return CoolingState(velocity, majorant, log_scale), record
-
-    def finish_chunk(self, state: CoolingState) -> tuple[CoolingState, Distributions]:
-        """Sample the velocity distributions and deal the particles into new rows."""
-        mixed, sample = super().finish_chunk(HomogeneousState(state.velocity, state.majorant))
-        return CoolingState(mixed.velocity, mixed.majorant, state.log_scale), sample
+        return HomogeneousState(velocity, majorant), record
 
     def averages(self, record: HomogeneousRecord) -> dict[str, np.ndarray]:
         """Averages over the particles at each record, the true temperature, the plain time."""
         averages = super().averages(record)
         elapsed, log_scale = (np.asarray(x) for x in (record.elapsed, record.log_scale))
         if self.exponent is not None:
-            averages["plain_time"] = plain_time(elapsed, log_scale, self.exponent)
+            averages["log_plain_time"] = log_plain_time(elapsed, log_scale, self.exponent)
             del averages["instant_rate"]  # the steps know better
         with np.errstate(under="ignore"):
             averages["true_temperature"] = averages["temperature"] * np.exp(2.0 * log_scale)
@@ -146,6 +133,8 @@ class HomogeneousCooling(AbstractHomogeneous):
         reduced = super().observables(means)
         reduced["temperature"] = means["true_temperature"] / INITIAL_TEMPERATURE
         reduced["log_temperature"] = means["log_temperature"]
+        if "log_time" in means:
+            reduced["log_time"] = means["log_time"]
         if "local_collisions" in means:
             per_time = self.gas.collision_rate(INITIAL_TEMPERATURE)
             reduced["reduced_time"] = means["local_collisions"] / per_time

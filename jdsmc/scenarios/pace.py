@@ -10,6 +10,11 @@ from ..types import Key, Scalar, Velocity
 from .options import Options
 
 
+LARGEST_SHARE = 0.9
+"""Share of the slots that are candidates at most. A pair that outruns the majorant by less than 11%
+then still collides as often as it should: a gas that heats up within a record makes such pairs."""
+
+
 def pace(
     temperature: Scalar, reduced_majorant: Scalar, rate, options: Options
 ) -> tuple[Scalar, Scalar]:
@@ -20,7 +25,7 @@ def pace(
     """
     thermal = lax.stop_gradient(jnp.sqrt(2.0 * temperature))
     majorant = lax.stop_gradient(reduced_majorant) * thermal
-    longest = options.rows.largest_hits() * 2.0**0.5 / majorant
+    longest = LARGEST_SHARE * options.rows.largest_hits() * 2.0**0.5 / majorant
     wanted = options.time_step / jnp.maximum(thermal, lax.stop_gradient(rate))
     return majorant, jnp.minimum(wanted, longest)
 

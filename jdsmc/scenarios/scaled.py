@@ -17,10 +17,14 @@ from ..types import Scalar, Velocity
 from ..units import INITIAL_TEMPERATURE
 
 
-def scaled_to_start(velocity: Velocity, log_scale: Scalar) -> tuple[Velocity, Scalar]:
-    """Velocities with mean zero and temperature T0, and the logarithm of their scale."""
+def scaled_to_start(velocity: Velocity) -> tuple[Velocity, Scalar]:
+    """Velocities with mean zero and temperature T0, and the logarithm of what they were divided by.
+
+    Its sum over the records tells how cold the gas is. The history adds up, in float64: in float32
+    the rounding of a sum of thousands would show.
+    """
     velocity, factor = held_at(velocity, INITIAL_TEMPERATURE)
-    return velocity, log_scale - jnp.log(factor)
+    return velocity, -jnp.log(factor)
 
 
 def slowed_rates(after: Float[Array, " steps"], exponent: float) -> Float[Array, "2"]:
@@ -35,10 +39,9 @@ def slowed_rates(after: Float[Array, " steps"], exponent: float) -> Float[Array,
     return jnp.mean(0.5 * (both[:, 1:] + both[:, :-1]), axis=1)
 
 
-def plain_time(elapsed: np.ndarray, log_scale: np.ndarray, exponent: float) -> np.ndarray:
-    """Time (τ0) that records lasted whose velocities were divided by exp(log_scale)."""
-    with np.errstate(over="ignore"):
-        return elapsed * np.exp(-exponent * log_scale)
+def log_plain_time(elapsed: np.ndarray, log_scale: np.ndarray, exponent: float) -> np.ndarray:
+    """Logarithm of the time (τ0) of records whose velocities were divided by exp(log_scale)."""
+    return np.log(elapsed) - exponent * log_scale
 
 
 def scaling_exponent(gas: AbstractGas) -> float | None:

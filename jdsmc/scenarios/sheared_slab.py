@@ -12,8 +12,9 @@ import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
+from scipy.special import gammaln
 
-from .. import random
+from .. import check, random
 from ..collisions.bound import FASTEST_PAIR
 from ..collisions.meet import Collisions
 from ..fields import choice, count, number
@@ -24,17 +25,21 @@ from ..measure.observables import RHEOLOGY, rheology
 from ..motion import initial_flow
 from ..motion.cells import totals
 from ..motion.flight import cross_planes
-from ..motion.friction import LayerFlow, friction, others, peculiar, slowed, slowing
+from ..motion.friction import LayerFlow, friction, peculiar, slowed, slowing
 from ..types import Key, Layer, Profile, Scalar, Velocities
 from ..units import INITIAL_TEMPERATURE
 from .approach import Approach, of_sheared_slab
 from .base import Record
-from .options import Options
+from .options import PARTICLES, Options
 from .slab import AbstractSlab, SlabState, uniform
 
 FIRST_CROWDING = 2.5
 """Probability per time assumed at the start, over the largest pair rate: 1.55 times the density
 (`trios`), which is at most 1.5."""
+
+WIDEST, FEWEST = 0.1, 50
+"""Width (λ0) of the layers by default: one of Δy adds (16/45π)(Δy/λ)² to the viscosity, 1e-3. At
+least as many as in the paper."""
 
 GLOBAL = (
     next(one for one in RHEOLOGY if one.name == "shear_stress"),
@@ -57,11 +62,14 @@ PROFILES = (
 class Stresses(eqx.Module):
     """Sums over the particles of each layer at one instant.
 
-    `number`; `momentum_x`, `momentum_y`: Σ v; `xx`..`xy`: Σ (v-u)_i (v-u)_j times N/(N-1), u being
-    the mean velocity of the layer at that instant (see `LayerFlow` for the factor).
+    `number` N; `others`: N - 1, or 0 in an empty layer; `momentum_x`, `momentum_y`: Σ v;
+    `xx`..`xy`: Σ (v-u)_i (v-u)_j, u being the mean velocity of the layer at that instant.
+    The mean of such a sum is (N-1) T_ij, whatever N: T_ij is the ratio of two averages, and a layer
+    with one particle, which shows no temperature, counts in neither.
     """
 
     number: Profile
+    others: Profile
     momentum_x: Profile
     momentum_y: Profile
     xx: Profile
@@ -71,7 +79,7 @@ class Stresses(eqx.Module):
 
     def mean_temperature(self) -> Scalar:
         """T (m v0²) averaged over the particles: eq. (4.8)."""
-        return jnp.sum(self.xx + self.yy + self.zz) / (3.0 * jnp.sum(self.number))
+        return jnp.sum(self.xx + self.yy + self.zz) / (3.0 * jnp.sum(self.others))
 
 
 class ShearedSlab(AbstractSlab):
@@ -84,7 +92,7 @@ class ShearedSlab(AbstractSlab):
             (L > 25 at α = 0.9, according to the paper).
         initial_state: "equilibrium" (at rest, eq. 3.5), "nonequilibrium" (eq. 3.6), or
             "local_equilibrium" (uniform shear from the start, eq. 3.12).
-        layers: number of layers.
+        layers: number of layers; by default 10 a mean free path at the mean density, at least 50.
     The numbers may be 1-D arrays, for a sweep. Raises ValueError for values outside these.
 
     The time step follows the temperature averaged over the particles, as in the paper.
@@ -105,7 +113,13 @@ class ShearedSlab(AbstractSlab):
         initial_flow.STATES,
         default="equilibrium",
     )
-    layers: int = count("layers across the slab", default=50)
+    layers: int = count("layers across the slab, 10 a mean free path if not said", default=None)
+
+    def __post_init__(self):
+        if self.layers is None:
+            lengths = np.ravel(check.physical(self.length))
+            known = lengths.dtype.kind == "f" and np.all(np.isfinite(lengths))  # else refused soon
+            self.layers = max(FEWEST, int(np.ceil(np.max(lengths) / WIDEST)) if known else 0)
 
     def __check_init__(self):
         if isinstance(self.gas, ElasticHardSpheres) and self.gas.drag == "measured":
@@ -121,6 +135,10 @@ class ShearedSlab(AbstractSlab):
     def no_steady_state(self) -> str:
         """What a steady state needs."""
         return "it needs shear_rate > 0 and a gas that loses energy; else give duration, collisions"
+
+    def default_particles(self) -> int:
+        """Fifty in a layer, if that is more than usual."""
+        return max(PARTICLES, 50 * self.layers)
 
     def approach(self, options: Options) -> Approach:
         """That of the kinetic model, and diffusion across the slab."""
@@ -175,56 +193,72 @@ class ShearedSlab(AbstractSlab):
         layer = self.layer(state.position)
         flow = LayerFlow.of(layer, state.velocity, self.layers)
         vx, vy, vz = peculiar(layer, state.velocity, flow.mean)
-        unbiased = flow.number / others(flow.number)
 
         def total(product):
-            return unbiased * totals(layer, product, self.layers)
+            return totals(layer, product, self.layers)
 
         momentum_x, momentum_y = (flow.number * u for u in flow.mean[:2])
         stresses = (total(vx * vx), total(vy * vy), total(vz * vz), total(vx * vy))
-        return Stresses(flow.number, momentum_x, momentum_y, *stresses)
+        freedom = jnp.maximum(flow.number - 1.0, 0.0)
+        return Stresses(flow.number, freedom, momentum_x, momentum_y, *stresses)
 
     def averages(self, record: Record) -> dict[str, np.ndarray]:
-        """Densities of each record: all add up. P_ij in n̄ m v0², momenta in n̄ v0.
+        """Densities of each record: all add up. In n̄ m v0² and n̄ v0; ratios to `others` are T_ij.
 
-        Over all layers: `thermal` n̄T̄ and `xx`..`xy`, eqs. (4.8) and (4.9); `tilt`, how far the
-        flow is; `instant_rate`, collisions per particle and time in local equilibrium, eq. (3.11).
+        Over all layers: `freedom`, the mean of `others`; `thermal` and `xx`..`xy`, T̄ and T̄_ij times
+        it, eqs. (4.8) and (4.9); `tilt`, how far the flow is; `instant_rate`, collisions per
+        particle and time in local equilibrium, eq. (3.11).
         """
         m: Any = record.moments  # on the host: arrays (realizations, records, layers)
         per_volume = self.layers / np.sum(m.number, axis=-1, keepdims=True)
         names = ("xx", "yy", "zz", "xy")
         stress = {name: getattr(m, name) * per_volume for name in names}
         means = {name: np.mean(stress[name], axis=-1) for name in names}
-        density, trace = m.number * per_volume, stress["xx"] + stress["yy"] + stress["zz"]
+        density, others = m.number * per_volume, m.others * per_volume
+        trace = stress["xx"] + stress["yy"] + stress["zz"]
         centre = (np.arange(self.layers) + 0.5) / self.layers - 0.5
-        rate = self.gas.collision_rate(trace / 3.0 / np.maximum(density, 1e-9))
-        partners = np.maximum(density - per_volume, 0.0)  # nobody collides with himself
         return {
             "density": density,
+            "others": others,
             "momentum_x": m.momentum_x * per_volume,
             "momentum_y": m.momentum_y * per_volume,
             **{f"stress_{name}": values for name, values in stress.items()},
             **means,
+            "freedom": np.mean(others, axis=-1),
             "thermal": np.mean(trace, axis=-1) / 3.0,
             "tilt": np.mean(centre * m.momentum_x * per_volume, axis=-1),
-            "instant_rate": np.mean(density * partners * rate, axis=-1),
+            "instant_rate": np.mean(density * others * self.pair_rate(m), axis=-1),
         }
+
+    def pair_rate(self, m: Stresses) -> np.ndarray:
+        """Collisions per particle and time at the mean density and the temperature of each layer.
+
+        For a power law: of k = 3(N-1) squares of normal velocities, ⟨T^{γ/2}⟩ is too small by
+        (2/k)^{γ/2} Γ((k+γ)/2)/Γ(k/2), 8% for hard spheres and N = 2, which is divided out.
+        """
+        freedom = 3.0 * np.maximum(m.others, 1.0)
+        rate = self.gas.collision_rate((m.xx + m.yy + m.zz) / freedom)
+        exponent = self.gas.speed_exponent() or 0.0
+        half = 0.5 * freedom
+        return (
+            rate * np.exp(gammaln(half) - gammaln(half + 0.5 * exponent)) * half ** (0.5 * exponent)
+        )
 
     def observables(self, means: dict) -> dict:
         """Global stresses, and the profiles: density, flow, T/T0 and P_ij/nT of each layer."""
-        whole = {name: means[name] for name in ("xx", "yy", "zz", "xy")}
-        heat = {"temperature": means["thermal"]}
+        whole = {name: means[name] / means["freedom"] for name in ("xx", "yy", "zz", "xy")}
+        heat = {"temperature": means["thermal"] / means["freedom"]}
         reduced = rheology(whole | heat, self.shear_rate, self.gas.speed_exponent())
         density = means["density"]
         stress = {name: means[f"stress_{name}"] for name in whole}
-        pressure = (stress["xx"] + stress["yy"] + stress["zz"]) / 3.0
+        trace = (stress["xx"] + stress["yy"] + stress["zz"]) / 3.0
         with np.errstate(divide="ignore", invalid="ignore"):
             return {
-                "mean_temperature": means["thermal"] / INITIAL_TEMPERATURE,
+                "mean_temperature": heat["temperature"] / INITIAL_TEMPERATURE,
                 **{one.name: reduced[one.name] for one in GLOBAL if one.name in reduced},
                 "density": density,
                 "velocity_x": means["momentum_x"] / density,
                 "velocity_y": means["momentum_y"] / density,
-                "temperature": pressure / density / INITIAL_TEMPERATURE,
-                **{f"pressure_{name}": stress[name] / pressure for name in whole},
+                "temperature": trace / means["others"] / INITIAL_TEMPERATURE,
+                **{f"pressure_{name}": stress[name] / trace for name in whole},
             }

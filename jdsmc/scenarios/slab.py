@@ -19,6 +19,9 @@ from ..types import Key, Layer, Positions, Scalar, Velocities
 from .base import AbstractScene, Record
 from .options import Options
 
+CROWDED = 10
+"""Fewer particles in a layer differ by factors from layer to layer: see `trios.groups_in`."""
+
 
 class SlabState(eqx.Module):
     """Positions across the slab (λ0), velocities (v0), and the largest probability per time.
@@ -117,7 +120,8 @@ class AbstractSlab(AbstractScene):
         self, key: Key, layer: Layer, velocity: Velocities, duration: Scalar, options: Options
     ) -> tuple[Velocities, Collisions, Scalar]:
         """Collisions within the layers."""
-        return collide_in_layers(key, self.gas, layer, self.layers, velocity, duration)
+        few = options.n_particles < CROWDED * self.layers
+        return collide_in_layers(key, self.gas, layer, self.layers, velocity, duration, crowded=few)
 
     def fit_options(self, options: Options) -> Options:
         """Raise ValueError for too few particles in a layer."""

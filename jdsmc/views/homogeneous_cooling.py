@@ -56,7 +56,8 @@ def draw(result):
     with_velocities = velocities.sampled(result) is not None
     x = pictures.across(result.steady, dims) if result.is_steady else ""
     figure, panels = pictures.grid(4 if with_velocities else 2, 2)
-    _temperature(panels[0], result, dimension)
+    beyond = np.nanmin(series["temperature"].values) < 1e-250
+    (_logarithms if beyond else _temperature)(panels[0], result, dimension)
     if x:
         _cumulants(panels[1], result, dims, x, dimension)
     else:
@@ -89,9 +90,26 @@ def _temperature(panel, result, dimension: int) -> None:
             law = theory.haff_temperature(time, alpha, dimension=dimension)
             panel.plot(time, law, "k:", lw=1.2, label=None if number else "Haff's law")
     panel.set(xscale="log", xlabel="time t (τ0)", ylabel="temperature T/T0")
-    known = series["temperature"].values
-    if np.nanmin(known) < 0.5:
+    if np.nanmin(series["temperature"].values) < 0.5:
         panel.set_yscale("log")
+
+
+def _logarithms(panel, result, dimension: int) -> None:
+    """The same in logarithms, for a gas that has cooled beyond the range of floats."""
+    series, dims = result.series, common.dimensions(result)
+    for number, point in enumerate(common.some_points(series, dims)):
+        here = series.isel(point)
+        time, value, error = (
+            here[key].values for key in ("log_time", "log_temperature", "log_temperature_error")
+        )
+        style = {"color": f"C{number}", "lw": 3, "alpha": 0.5}
+        pictures.curve(panel, time, value, error, common.label(series, point), **style)
+        if dimension:
+            alpha = common.parameter(result, here, "restitution")
+            half = np.log(theory.cooling_rate(alpha, dimension=dimension) / 2)
+            law = -2 * np.logaddexp(0.0, half + time)  # t and 1 + t are the same where it matters
+            panel.plot(time, law, "k:", lw=1.2, label=None if number else "Haff's law")
+    panel.set(xlabel="ln(1 + t/τ0)", ylabel="ln T/T0")
 
 
 def _cumulants(panel, result, dims, x: str, dimension: int) -> None:

@@ -222,7 +222,7 @@ def test_the_papers_scheme_is_of_first_order(monkeypatch):
         for _ in range(steps):
             length = jnp.float32(duration / steps)
             velocity, *_ = scene.step(key, velocity, one, length, OPTIONS)
-            velocity, _ = scaled_to_start(velocity, one)  # so that both count time at T0
+            velocity, _ = scaled_to_start(velocity)  # so that both count time at T0
         return np.stack(velocity)
 
     reference = after("exact", 256)

@@ -217,6 +217,27 @@ def test_equilibrium_collision_rate(layers):
     np.testing.assert_allclose(temperature, 1.5, rtol=2e-5)
 
 
+def test_layers_of_two_particles_have_the_temperature_of_the_gas():
+    """Elastic and without shear: energy is conserved, and T/T0 is what it was, in every layer.
+
+    To be exact N/(N-1) times that, with N particles whose momentum is zero: two of them move
+    relative to each other with 2T of N/(N-1). Layers with one particle, a third of those that
+    are not empty, have none; counted as cold they made it 0.87.
+    """
+    scene = ShearedSlab(InelasticHardSpheres(1.0), 0.0, 2.5, layers=32)
+    result = jdsmc.run(scene, n_particles=64, duration=300.0, progress=False)
+    series = result.series.isel(sample=slice(1, None))
+    heat = series["mean_temperature"].values
+    blocks = np.mean(heat[: len(heat) // 40 * 40].reshape(40, -1), axis=1)
+    error = standard_error(blocks)
+    assert error < 2.5e-3
+    assert abs(np.mean(blocks) - 64 / 63) < 4.5 * error
+    layers = np.nanmean(series["temperature"].values, axis=0)
+    assert abs(np.mean(layers) - 64 / 63) < 4.5 * standard_error(layers)
+    # s/s0 with the N(N-1) pairs that there were: noise of 300/√π · 64 · 8 collisions is 0.3%
+    assert float(series["collision_ratio"][-1]) == pytest.approx(1.0, abs=0.012)
+
+
 # Against the homogeneous gas
 
 

@@ -1,0 +1,47 @@
+"""How many layers a slab needs: none much wider than a mean free path of the gas in it."""
+
+import numpy as np
+
+from .. import check
+
+WIDEST = 0.5
+"""Widest layer between walls, in mean free paths at the densest place. A layer of Δz conducts
+better by (32/225π)(Δz/λ)²: 1.1% there, and 0.1% or less of the heat flux through the whole slab,
+most of whose resistance is elsewhere."""
+
+FEWEST = 20
+"""Layers that any slab has besides, to draw its profiles."""
+
+JUMP = 2.127
+"""Temperature jump at a wall over λ dT/dz (hard spheres, Maxwell walls)."""
+
+
+def thin_layers(cold_temperature, gravity, length, *, jump: bool) -> int:
+    """Layers at most `WIDEST` mean free paths wide, for all points of a sweep over these numbers.
+
+    `jump`: whether the gas at a wall is warmer than the wall.
+    """
+    slab = [np.ravel(check.physical(number)) for number in (cold_temperature, gravity, length)]
+    if any(values.dtype.kind != "f" or not np.all(np.isfinite(values)) for values in slab):
+        return FEWEST  # refused with its name when the scene checks its fields
+    cold, gravity, length = np.broadcast_arrays(*np.ix_(*slab))
+    length = np.clip(length, 1e-6, None)
+    wanted = length * densest(np.clip(cold, 1e-6, 1.0), gravity, length, jump) / WIDEST
+    return FEWEST + int(np.ceil(np.max(wanted, initial=1.0)))
+
+
+def densest(cold, gravity, length, jump: bool):
+    """Largest density n/n̄ of a gas between walls, about.
+
+    Fourier's law (Tahiri et al., eq. 31) with θ = √T at the cold end of the gas has the pressure
+    (1 + θ + θ²)/3 and the slope √T dT/dz = 2(1 - θ³)/3L; the jump there is θ² - T_- =
+    2.127 (θ²/p) dT/dz. Gravity presses the gas into a scale height T/2|g| at either wall.
+    """
+    root = np.sqrt(cold)
+    for _ in range(20 if jump else 0):
+        pressure = (1.0 + root + root**2) / 3.0
+        step = JUMP * 2.0 * (1.0 - root**3) / (3.0 * length * pressure)
+        root = np.minimum(0.5 * (root + 0.5 * (step + np.sqrt(step**2 + 4.0 * cold))), 1.0)
+    conducting = (1.0 + root + root**2) / (3.0 * root**2)
+    pressed = 2.0 * np.abs(gravity) * length / np.where(gravity > 0, cold, 1.0)
+    return np.maximum(conducting, pressed)
