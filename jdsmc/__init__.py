@@ -14,6 +14,7 @@ from .gases import (
 )
 from .measure.observable import Observable
 from .results import Derivative, Result, Sensitivity, load
+from .running.hosts import join_hosts
 from .running.merge import merge
 from .running.provenance import version
 from .running.resume import resume
@@ -40,6 +41,7 @@ __all__ = [
     "combine",
     "count",
     "fit",
+    "join_hosts",
     "load",
     "merge",
     "number",

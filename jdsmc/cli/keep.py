@@ -13,6 +13,7 @@ from ..files.look import is_hdf5
 from ..files.writable import check_writable
 from ..results.join import join_gases
 from ..results.result import Result
+from ..running.hosts import is_first
 from ..running.progress import interruptible
 
 PICTURES = (".png", ".pdf", ".svg")
@@ -50,9 +51,13 @@ def keep(
 ) -> int:
     """Save, show and draw results by gas; the exit status, 1 if any of that failed.
 
+    Of several processes that share a run, the first does it.
+
     Arguments: the files asked for; `join` puts the gases side by side; `spare` names the file of a
     result that nobody asked to save and that cannot be shown.
     """
+    if not is_first():
+        return 0
     parts = {"": next(iter(results.values()))}
     failed = False
     if join:

@@ -8,6 +8,7 @@ from pathlib import Path
 from ..errors import FaultError
 from ..results.columns import columns, write_csv
 from ..results.result import Result, load
+from ..running.hosts import is_first, join_hosts
 from ..running.provenance import version
 from . import catalogue
 from .arguments import Parser
@@ -31,6 +32,8 @@ COMMANDS = {
     "theory": ("[--restitution A:B:STEP]", "transport coefficients without simulation"),
 }
 HELP = {"-h", "--help"}
+COMPUTING = ("run", "sweep", "resume", "fit")
+"""Commands that several processes may share."""
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -68,6 +71,8 @@ def command(words: list[str]) -> int:
         print(f"jdsmc {version()}" if words == ["--version"] else overview())
         return 0
     first, rest = words[0], words[1:]
+    if first in COMPUTING and join_hosts() and not is_first():
+        sys.stdout = open(os.devnull, "w")  # noqa: SIM115 (until the process ends): one tells it all
     if first in ("run", "sweep"):
         if not rest or rest[0] in HELP:
             print(overview())

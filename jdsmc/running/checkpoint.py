@@ -17,6 +17,7 @@ from ..files.lock import Lock
 from ..files.writable import check_writable
 from ..results.rebuild import rebuilt
 from ..scenarios.base import AbstractScene
+from . import hosts
 from .provenance import processor, specification, version
 from .session import Session
 
@@ -44,7 +45,7 @@ class Keeper:
     def __init__(self, path: str | Path, every, scene: AbstractScene, chosen: dict, *, new: bool):
         check.scalar("every", every, 0.0, np.inf, high_included=False)
         self.path = Path(path)
-        if new and self.path.exists():
+        if new and hosts.is_first() and self.path.exists():
             raise FileExistsError(
                 f"{path} exists; go on with it by jdsmc.resume({str(path)!r}), or choose another "
                 "name."
@@ -57,17 +58,22 @@ class Keeper:
         self._took, self._last = 0.0, time.monotonic()
 
     def __enter__(self):
-        self._lock = Lock(self.path)
+        if hosts.is_first():
+            self._lock = Lock(self.path)
         return self
 
     def __exit__(self, *_):
         if self._lock is not None:
             self._lock.release()
 
+    def is_due(self) -> bool:
+        """True if it is time."""
+        return time.monotonic() - self._last >= max(self._every, self._took / SHARE)
+
     def keep(self, session: Session, stopped: str) -> None:
-        """Write if it is time, or if the run has ended."""
-        began = time.monotonic()
-        if not stopped and began - self._last < max(self._every, self._took / SHARE):
+        """Write what the session has come to; every process of a run must call this."""
+        began, state = time.monotonic(), plain(session)
+        if not hosts.is_first():
             return
         said = self._told | {"limits": session.limits.given, "stopped": stopped}
         said |= {"made_by": made_by(), "spent": session.spent}
@@ -75,7 +81,7 @@ class Keeper:
         content = io.BytesIO()  # over a disk that fills HDF5 would crash the program
         with h5py.File(content, "w") as file:
             file.attrs.update({"kind": KIND, "schema": SCHEMA, "run": json.dumps(said)})
-            tree.write(file.create_group("state"), plain(session))
+            tree.write(file.create_group("state"), state)
 
         def fill(path: Path) -> None:
             path.write_bytes(content.getbuffer())
@@ -96,10 +102,8 @@ class Kept(NamedTuple):
 
     def give(self, session: Session) -> None:
         """Make a new session go on from here."""
-        engine = [
-            jax.tree.unflatten(jax.tree.structure(one), leaves)
-            for one, leaves in zip(session.engine.states, self.state["engine"], strict=True)
-        ]
+        structure = jax.tree.structure(session.engine.states[0])
+        engine = [jax.tree.unflatten(structure, leaves) for leaves in self.state["engine"]]
         session.take(self.state | {"engine": engine})
 
 

@@ -1,9 +1,9 @@
-"""Compiled chunks of a batch of gases, shared among the cores or devices.
+"""Compiled chunks of a batch of gases, shared among the cores, devices and hosts.
 
 Every gas of the batch (sweep point x realization) has its own key and clock and never sees the
 others. The batch is cut into groups of one size, each advanced by the same program, whatever their
-number: so random numbers and roundings depend on the gas alone, not on the sweep or the cores, and
-a sweep of other length compiles nothing new.
+number: so random numbers and roundings depend on the gas alone, not on the sweep, the cores
+or the hosts, and a sweep of other length compiles nothing new.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -19,6 +19,7 @@ from .. import random, sweep
 from ..derivatives.sampling import Sampler
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
+from . import hosts
 from .batch import cores, gathered
 
 TOGETHER = 20_000
@@ -53,8 +54,9 @@ class Engine:
         keys = [key for scene in scenes for key in gas_keys(scene, n_realizations, seed)]
         size, devices = group_size(len(batch), scenes[0], options), jax.local_devices()
         self._scenes, self._keys = [], []
-        for number, first in enumerate(range(0, len(batch), size)):
-            device = devices[number % len(devices)]
+        self.parts = -(-len(batch) // size)
+        for count, number in enumerate(hosts.own(self.parts)):
+            first, device = number * size, devices[count % len(devices)]
             self._scenes.append(_placed(_group(batch, first, size), device, options))
             self._keys.append(jax.device_put(_stacked(_group(keys, first, size)), device))
         work = list(zip(self._scenes, self._keys, strict=True))
@@ -75,11 +77,17 @@ class Engine:
         done = self._share(work)
         self.states = [state for state, _ in done]
         self.chunks += 1
-        record, sample, self.watched = gathered([output for _, output in done], self.shape)
+        outputs = hosts.everywhere([output for _, output in done], self.parts)
+        record, sample, self.watched = gathered(outputs, self.shape)
         return record, sample
 
+    def all_states(self) -> list:
+        """The states of all groups, of other processes too, as NumPy arrays."""
+        return hosts.everywhere([jax.tree.map(np.asarray, one) for one in self.states], self.parts)
+
     def take(self, states: list, chunks: int) -> None:
-        """Go on from these states of the groups, after so many chunks."""
+        """Go on from these states of all groups, after so many chunks."""
+        states = [states[number] for number in hosts.own(self.parts)]
         devices = [jax.tree.leaves(keys)[0].device for keys in self._keys]
         placed = zip(states, devices, strict=True)
         self.states = [jax.device_put(state, device) for state, device in placed]
@@ -159,7 +167,7 @@ def _keys(key, words, realizations):
 def group_size(gases: int, scene: AbstractScene, options: Options) -> int:
     """Gases of a group: few on a CPU, chosen from N alone; an equal share on an accelerator."""
     if jax.default_backend() != "cpu":
-        return -(-gases // len(jax.local_devices()))
+        return -(-gases // jax.device_count())
     if scene.in_space:
         return 1
     return min(MOST_TOGETHER, max(1, TOGETHER // options.n_particles))

@@ -6,6 +6,7 @@ from typing import NamedTuple
 from ..errors import FaultError, NotSteadyError
 from ..results.result import Result
 from ..scenarios.base import AbstractScene
+from . import hosts
 from .assemble import assemble
 from .checkpoint import Keeper
 from .progress import interruptible, progress_bar
@@ -36,16 +37,19 @@ def go_on(
     Arguments: the scene as the user made it; the session; attributes of the result; whether a bar
     is shown; where the run is kept, if anywhere.
     """
+    shown = progress and hosts.is_first()
     try:
-        with keeper or nullcontext(), interruptible() as ended, progress_bar(progress) as bar:
+        with keeper or nullcontext(), interruptible() as ended, progress_bar(shown) as bar:
             stopped = ""
             while not stopped:
                 session.advance()
                 stopped = session.ending()
                 bar.show(session)
-                if ended.is_set() and not stopped:
+                due = keeper is not None and keeper.is_due()
+                end, due = hosts.any_of(ended.is_set(), due)
+                if end and not stopped:
                     stopped = f"{INTERRUPTED} after {session.spent:.1f} collisions per particle"
-                if keeper is not None:
+                if keeper is not None and (due or stopped):
                     keeper.keep(session, stopped)
     except FaultError as error:
         if session.history.length:

@@ -9,6 +9,7 @@ import numpy as np
 from .. import sweep
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
+from . import hosts
 from .batch import cores, gathered
 
 
@@ -26,10 +27,11 @@ class HostEngine:
         self.options = options
         self.chunks = 0
         self.watched: Any = None
-        self._scenes = [scene for scene in scenes for _ in range(n_realizations)]
-        self._keys = [
-            (seed, *sweep.fingerprint(scene), r) for scene in scenes for r in range(n_realizations)
-        ]
+        batch = [(scene, r) for scene in scenes for r in range(n_realizations)]
+        self.parts = len(batch)
+        own = [batch[number] for number in hosts.own(self.parts)]
+        self._scenes = [scene for scene, _ in own]
+        self._keys = [(seed, *sweep.fingerprint(scene), r) for scene, r in own]
         self._pool = ThreadPoolExecutor(cores())
         work = zip(self._scenes, self._keys, strict=True)
         self.states: list[Any] = list(
@@ -38,9 +40,14 @@ class HostEngine:
             )
         )
 
+    def all_states(self) -> list:
+        """The states of all gases, of other processes too."""
+        return hosts.everywhere([jax.tree.map(np.asarray, one) for one in self.states], self.parts)
+
     def take(self, states: list, chunks: int) -> None:
-        """Go on from these states of the gases, after so many chunks."""
-        self.states = [jax.tree.map(np.array, state) for state in states]
+        """Go on from these states of all gases, after so many chunks."""
+        own = [states[number] for number in hosts.own(self.parts)]
+        self.states = [jax.tree.map(np.array, state) for state in own]
         self.chunks = int(chunks)
 
     def advance(self):
@@ -63,4 +70,5 @@ class HostEngine:
         done = list(self._pool.map(work, range(len(self._scenes))))
         self.states = [state for state, _ in done]
         self.chunks += 1
-        return gathered([output for _, output in done], self.shape)
+        outputs = hosts.everywhere([output for _, output in done], self.parts)
+        return gathered(outputs, self.shape)

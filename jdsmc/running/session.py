@@ -1,6 +1,5 @@
 """A run under way, of any scene: engine, history, steady-state tracker, precision."""
 
-import jax
 import numpy as np
 
 from ..derivatives.request import Request
@@ -64,7 +63,7 @@ class Session:
         `take` of a session made with the same arguments goes on from it to the bit.
         """
         return {
-            "engine": [jax.tree.map(np.asarray, state) for state in self.engine.states],
+            "engine": self.engine.all_states(),
             "chunks": self.engine.chunks,
             "history": self.history.state(),
             "tracker": self.unsettled,

@@ -20,7 +20,7 @@ def test_killed_resumed_gone_on_and_merged(tmp_path, monkeypatch, capsys):
     """A process that is killed in the middle; its run ends as that of another that was not."""
     monkeypatch.chdir(tmp_path)
     long = f"{RUN} --collisions 30000 --checkpoint night.h5 --every 0.01"
-    process = subprocess.Popen([sys.executable, "-m", "jdsmc.cli", *long.split()])
+    process = subprocess.Popen([sys.executable, "-m", "jdsmc", *long.split()])
     while not (tmp_path / "night.h5").exists():
         assert process.poll() is None
         time.sleep(0.05)
