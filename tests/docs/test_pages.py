@@ -123,3 +123,11 @@ def test_derivatives(folder, capsys):
     one = names["one"]
     assert abs(one.value + 0.52) < 5 * one.uncertainty  # -0.5200(5) by differences of long runs
     assert "restitution" in capsys.readouterr().out
+
+
+def test_long_runs(folder, in_haste):
+    """What goes on knows more, and two runs have twice the realizations."""
+    names = read_page("long_runs.md", folder)
+    assert tuple(names["result"]["a2"]) != tuple(names["better"]["a2"])
+    assert names["better"]["shear_stress"].error <= 0.01 * names["better"]["shear_stress"].value
+    assert names["together"].attrs["n_realizations"] == 16
