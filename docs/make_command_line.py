@@ -21,7 +21,7 @@ def write(folder: Path) -> None:
     """The page, into a folder."""
     folder.mkdir(exist_ok=True)
     parts = [HEAD, said(), "## Other commands"]
-    parts += [said(name, "--help") for name in ("show", "plot", "theory")]
+    parts += [said(name, "--help") for name in ("resume", "merge", "show", "plot", "theory")]
     parts += [said("fit", "beta", "--help")]
     for name in scenes():
         parts += [f"## `jdsmc run {name}`", said("run", name, "--help")]

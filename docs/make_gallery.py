@@ -34,7 +34,8 @@ def page(study: str, parts: list[str], folder: Path) -> str:
     readme = text_of(ROOT / "experiments" / study / "README.md").strip()
     known = {figure: name for name in parts for figure in load(name).figures}
     others = {picture.stem: study for picture in sorted(results.glob("*.png"))}
-    figures = [one for figure in known | others for one in shown(figure, known, results, folder)]
+    order = sorted(known | others, key=lambda name: (not name.startswith("fig"), name))
+    figures = [one for figure in order for one in shown(figure, known, results, folder)]
     tables = write_tables(study, results, folder)
     return "\n\n".join([readme, *quoted(results), "## Figures", *figures, *tables]) + "\n"
 
@@ -52,6 +53,7 @@ def quoted(results: Path) -> list[str]:
 def text_of(page: Path) -> str:
     """A page whose stars in κ*, a* and the like stay stars, and whose links lead to the site."""
     text = page.read_text(encoding="utf-8").replace("](../../../docs/", "](../")
+    text = re.sub(r"`?docs/(\w+\.md)`?", r"[](../\1)", text)
     return re.sub(r"(?<![A-Za-z*])(Δ?[A-Za-zα-ωΑ-Ω])\*(?!\*)", r"\1\*", text)
 
 

@@ -14,8 +14,8 @@ from jdsmc.cli import main
 PAGES = Path(__file__).parents[2] / "docs"
 
 
-def read_page(name: str, folder: Path) -> dict:
-    """Run every block of a page in a folder; the names that its Python blocks define.
+def read_page(name: str, folder: Path, shell: bool = True) -> dict:
+    """Run every block of a page in a folder, or Python's alone; the names that these define.
 
     A block that starts with a comment that is the name of a file is saved there, as the page says.
     """
@@ -27,7 +27,7 @@ def read_page(name: str, folder: Path) -> dict:
             (folder / file[1]).write_text(block, encoding="utf-8")
         elif kind == "python":
             exec(compile(block, name, "exec"), names)
-        else:
+        elif shell:
             for line in block.splitlines():
                 program, *words = shlex.split(line)
                 assert program == "jdsmc"
@@ -87,6 +87,12 @@ def test_own_scene(folder, capsys):
         assert found.error < 0.15 * abs(wanted)
         assert abs(found.value - wanted) < 5 * found.error + 0.04 * abs(wanted)
     assert theory(0.3) > theory(0.5) > 0 > theory(0.8)
+
+
+def test_install(folder, in_haste, capsys):
+    """What shell commands there are install things."""
+    read_page("install.md", folder, shell=False)
+    assert capsys.readouterr().out == f"{jax.default_backend()}\n"
 
 
 def test_sweeps(folder, in_haste, capsys):
