@@ -10,10 +10,15 @@ from ..stats import BLOCKS, jackknife, larger_errors
 from .history import History
 
 
+def takes_leading_axes(scene: AbstractScene) -> bool:
+    """True if observables take leading axes: what has a time series of its own need not."""
+    return type(scene).evolution is AbstractScene.evolution
+
+
 def against_time(scene: AbstractScene, averages: dict) -> dict:
     """What a scene reports against time, from averages of records."""
     wanted = [one.name for one in (*scene.reports, *scene.evolves)]
-    if type(scene).evolution is AbstractScene.evolution:
+    if takes_leading_axes(scene):
         return _complete(scene, scene.observables(averages), wanted)
     found = scene.evolution(averages)
     return {name: np.asarray(found[name], dtype=float) for name in wanted if name in found}
@@ -33,12 +38,40 @@ def _complete(scene: AbstractScene, found: dict, wanted: list[str]) -> dict:
     return {name: np.asarray(found[name], dtype=float) for name in wanted}
 
 
+<<<<<<< HEAD
 def averages_to_print(history: History, point: int, first: int) -> tuple[dict, dict | None]:
     """Averages of one point from record `first` on: of each realization, and of blocks of them.
+=======
+def check_leading_axes(scene: AbstractScene, means: dict) -> None:
+    """Raise FaultError for observables that give something else with a leading axis than without.
+
+    Error bars would be wrong. Arguments: averages of each realization, (realizations, ...).
+    """
+    if not takes_leading_axes(scene):
+        return
+    together = reported(scene, means)
+    alone = reported(scene, {name: array[0] for name, array in means.items()})
+    for name, values in alone.items():
+        shape = (len(next(iter(means.values()))), *values.shape)
+        found = np.broadcast_to(together[name], shape)
+        size = np.max(np.abs(found), initial=0.0, where=np.isfinite(found))
+        if not np.allclose(found[0], values, rtol=0.0, atol=1e-9 * size, equal_nan=True):
+            raise FaultError(
+                f"{type(scene).__name__}.observables must take averages with leading axes of any "
+                f"shape: {name} of many realizations differs from that of one."
+            )
+
+
+def steady_estimates(
+    history: History, point: int, edges, names: tuple[str, ...] | None = None
+) -> tuple[dict, dict, dict]:
+    """Values, standard errors and leave-one-out values of one point: all observables, or some.
+>>>>>>> b724d01 (Host: leave-one-out values in one call, results assembled at once, looks that stop early: the same to the bit)
 
     Arrays (realizations, ...) and (blocks x realizations, ...). None for the blocks of a scene of
     correlations in time, which cuts its own, and of what is too short to cut.
     """
+<<<<<<< HEAD
     whole = history.point(point, first, history.length)
     if history.scenes[point].correlated or history.length - first < 2 * BLOCKS:
         return whole, None
@@ -66,6 +99,34 @@ def estimates_of(scene: AbstractScene, means: dict, blocks: dict | None) -> tupl
 def printed_estimates(history: History, point: int, first: int) -> tuple[dict, dict, dict]:
     """What is printed of one point measured from record `first` on; as `estimates_of`."""
     return estimates_of(history.scenes[point], *averages_to_print(history, point, first))
+=======
+    edges = [edges, history.length] if np.ndim(edges) == 0 else edges
+    blocks = [history.point(point, a, b) for a, b in itertools.pairwise(edges)]
+    means = {name: np.concatenate([b[name] for b in blocks]) for name in blocks[0]}
+    scene = history.scenes[point]
+
+    def wanted(averages):
+        found = reported(scene, averages)
+        return found if names is None else {name: found[name] for name in names}
+
+    return jackknife(means, wanted, axis=0, leading=takes_leading_axes(scene))
+
+
+def printed_estimates(
+    history: History, point: int, first: int, names: tuple[str, ...] | None = None
+) -> tuple[dict, dict, dict]:
+    """What is printed of one point measured from record `first` on; as `steady_estimates`.
+
+    The error is the larger of two (`stats.larger_errors`), from realizations and from blocks of
+    them. A scene of correlations in time cuts blocks of its own.
+    """
+    value, error, left_out = steady_estimates(history, point, first, names)
+    if history.scenes[point].correlated or history.length - first < 2 * BLOCKS:
+        return value, error, left_out
+    edges = np.linspace(first, history.length, BLOCKS + 1).astype(int)
+    _, of_blocks, _ = steady_estimates(history, point, edges, names)
+    return value, *larger_errors(error, of_blocks, left_out)
+>>>>>>> b724d01 (Host: leave-one-out values in one call, results assembled at once, looks that stop early: the same to the bit)
 
 
 def steady_changes(history: History, point: int, early: int, start: int) -> tuple[dict, dict, dict]:
@@ -89,7 +150,7 @@ def steady_changes(history: History, point: int, early: int, start: int) -> tupl
             change = {("change", n): after[n] - before[n] for n in after}
         return change | {("later", n): value for n, value in after.items()}
 
-    value, error, _ = jackknife(means, both, axis=0)
+    value, error, _ = jackknife(means, both, axis=0, leading=takes_leading_axes(scene))
     names = [name for kind, name in value if kind == "change"]
     return (
         {n: value["change", n] for n in names},

@@ -7,7 +7,10 @@ import json
 import os
 import platform
 import subprocess
+<<<<<<< HEAD
 import tomllib
+=======
+>>>>>>> b724d01 (Host: leave-one-out values in one call, results assembled at once, looks that stop early: the same to the bit)
 from functools import cache
 from importlib import metadata
 from pathlib import Path
@@ -87,6 +90,7 @@ def version() -> str:
 
 
 @cache
+<<<<<<< HEAD
 def processor() -> str:
     """A word for the kind of processor: the same program rounds differently on another kind."""
     kind = platform.machine()
@@ -97,8 +101,13 @@ def processor() -> str:
     return kind
 
 
+=======
+>>>>>>> b724d01 (Host: leave-one-out values in one call, results assembled at once, looks that stop early: the same to the bit)
 def commit() -> str:
-    """The git commit of the package's own checkout, "+" if changed, or "unknown"."""
+    """The git commit of the package's own checkout, "+" if changed, or "unknown".
+
+    Asked once a process, whose code does not change after.
+    """
     root = Path(__file__).parents[2]
     if not _is_checkout(root):
         return "unknown"
