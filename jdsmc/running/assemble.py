@@ -11,11 +11,13 @@ from ..results.result import FREEDOM, Result
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
 from ..stats import jackknife
-<<<<<<< HEAD
-from .estimates import against_time, averages_to_print, estimates_of
-=======
-from .estimates import against_time, check_leading_axes, printed_estimates, takes_leading_axes
->>>>>>> b724d01 (Host: leave-one-out values in one call, results assembled at once, looks that stop early: the same to the bit)
+from .estimates import (
+    against_time,
+    averages_to_print,
+    check_leading_axes,
+    estimates_of,
+    takes_leading_axes,
+)
 from .history import History
 from .provenance import provenance, run_name
 from .session import Session
@@ -145,18 +147,13 @@ def _steady(scene, labels, session, settled, attrs: dict) -> tuple[dict, dict]:
     groups = {"/": labels.dataset(columns, (*scene.reports, *STEADY_FROM, DEGREES_OF_FREEDOM))}
     left_out = _each(_as_many([one and one[2] for one in estimates]))
     groups["/left_out"] = labels.dataset(left_out, scene.reports, ("realization",))
-<<<<<<< HEAD
+    for p in points:
+        if averages[p] is not None:
+            check_leading_axes(history.scenes[p], averages[p][0])
     sums, dims = (
         _each([one and one[0] for one in averages]),
         {one.name: one for one in scene.reports},
     )
-=======
-    means = [history.point(p, starts[p], history.length) if settled[p] else None for p in points]
-    for one, averages in zip(history.scenes, means, strict=True):
-        if averages is not None:
-            check_leading_axes(one, averages)
-    sums, dims = _each(means), {one.name: one for one in scene.reports}
->>>>>>> b724d01 (Host: leave-one-out values in one call, results assembled at once, looks that stop early: the same to the bit)
     groups["/realizations"] = labels.dataset(
         {name: x for name, x in sums.items() if not np.iscomplexobj(x)},
         [dims[n]._replace(meaning=n) for n in sums if n in dims],

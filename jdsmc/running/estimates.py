@@ -38,10 +38,6 @@ def _complete(scene: AbstractScene, found: dict, wanted: list[str]) -> dict:
     return {name: np.asarray(found[name], dtype=float) for name in wanted}
 
 
-<<<<<<< HEAD
-def averages_to_print(history: History, point: int, first: int) -> tuple[dict, dict | None]:
-    """Averages of one point from record `first` on: of each realization, and of blocks of them.
-=======
 def check_leading_axes(scene: AbstractScene, means: dict) -> None:
     """Raise FaultError for observables that give something else with a leading axis than without.
 
@@ -62,16 +58,12 @@ def check_leading_axes(scene: AbstractScene, means: dict) -> None:
             )
 
 
-def steady_estimates(
-    history: History, point: int, edges, names: tuple[str, ...] | None = None
-) -> tuple[dict, dict, dict]:
-    """Values, standard errors and leave-one-out values of one point: all observables, or some.
->>>>>>> b724d01 (Host: leave-one-out values in one call, results assembled at once, looks that stop early: the same to the bit)
+def averages_to_print(history: History, point: int, first: int) -> tuple[dict, dict | None]:
+    """Averages of one point from record `first` on: of each realization, and of blocks of them.
 
     Arrays (realizations, ...) and (blocks x realizations, ...). None for the blocks of a scene of
     correlations in time, which cuts its own, and of what is too short to cut.
     """
-<<<<<<< HEAD
     whole = history.point(point, first, history.length)
     if history.scenes[point].correlated or history.length - first < 2 * BLOCKS:
         return whole, None
@@ -80,53 +72,40 @@ def steady_estimates(
     return whole, {name: np.concatenate([part[name] for part in parts]) for name in whole}
 
 
-def estimates_of(scene: AbstractScene, means: dict, blocks: dict | None) -> tuple[dict, dict, dict]:
-    """Values, standard errors and leave-one-out values of all observables, from averages.
+def estimates_of(
+    scene: AbstractScene, means: dict, blocks: dict | None, names: tuple[str, ...] | None = None
+) -> tuple[dict, dict, dict]:
+    """Values, standard errors and leave-one-out values of all observables, or some, from averages.
 
     The error is the larger of two (`stats.larger_errors`), from realizations and from blocks.
     """
 
     def observables(averages):
-        return reported(scene, averages)
-
-    value, error, left_out = jackknife(means, observables, axis=0)
-    if blocks is None:
-        return value, error, left_out
-    _, of_blocks, _ = jackknife(blocks, observables, axis=0)
-    return value, *larger_errors(error, of_blocks, left_out)
-
-
-def printed_estimates(history: History, point: int, first: int) -> tuple[dict, dict, dict]:
-    """What is printed of one point measured from record `first` on; as `estimates_of`."""
-    return estimates_of(history.scenes[point], *averages_to_print(history, point, first))
-=======
-    edges = [edges, history.length] if np.ndim(edges) == 0 else edges
-    blocks = [history.point(point, a, b) for a, b in itertools.pairwise(edges)]
-    means = {name: np.concatenate([b[name] for b in blocks]) for name in blocks[0]}
-    scene = history.scenes[point]
-
-    def wanted(averages):
         found = reported(scene, averages)
         return found if names is None else {name: found[name] for name in names}
 
-    return jackknife(means, wanted, axis=0, leading=takes_leading_axes(scene))
+    leading = takes_leading_axes(scene)
+    value, error, left_out = jackknife(means, observables, axis=0, leading=leading)
+    if blocks is None:
+        return value, error, left_out
+    _, of_blocks, _ = jackknife(blocks, observables, axis=0, leading=leading)
+    return value, *larger_errors(error, of_blocks, left_out)
 
 
 def printed_estimates(
     history: History, point: int, first: int, names: tuple[str, ...] | None = None
 ) -> tuple[dict, dict, dict]:
-    """What is printed of one point measured from record `first` on; as `steady_estimates`.
+    """What is printed of one point measured from record `first` on; as `estimates_of`."""
+    averages = averages_to_print(history, point, first)
+    return estimates_of(history.scenes[point], *averages, names)
 
-    The error is the larger of two (`stats.larger_errors`), from realizations and from blocks of
-    them. A scene of correlations in time cuts blocks of its own.
-    """
-    value, error, left_out = steady_estimates(history, point, first, names)
-    if history.scenes[point].correlated or history.length - first < 2 * BLOCKS:
-        return value, error, left_out
-    edges = np.linspace(first, history.length, BLOCKS + 1).astype(int)
-    _, of_blocks, _ = steady_estimates(history, point, edges, names)
-    return value, *larger_errors(error, of_blocks, left_out)
->>>>>>> b724d01 (Host: leave-one-out values in one call, results assembled at once, looks that stop early: the same to the bit)
+
+def realization_estimates(
+    history: History, point: int, first: int, names: tuple[str, ...]
+) -> tuple[dict, dict, dict]:
+    """The same with the error from realizations alone, which is printed or smaller."""
+    means = history.point(point, first, history.length)
+    return estimates_of(history.scenes[point], means, None, names)
 
 
 def steady_changes(history: History, point: int, early: int, start: int) -> tuple[dict, dict, dict]:

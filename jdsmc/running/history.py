@@ -93,20 +93,6 @@ class History:
         self._totals[name] = total[..., -1]
         return total - increments
 
-<<<<<<< HEAD
-=======
-    def _store(self, name: str, values: np.ndarray) -> None:
-        """Write into a column whose capacity doubles, so that long runs cost in proportion."""
-        first, last = self.length, self.length + values.shape[2]
-        column = self._columns.get(name)
-        if column is None or last > column.shape[2]:
-            room = np.empty((*values.shape[:2], 2 * last, *values.shape[3:]), values.dtype)
-            if column is not None:
-                room[:, :, :first] = column[:, :, :first]
-            self._columns[name] = column = room
-        column[:, :, first:last] = values
-
->>>>>>> b724d01 (Host: leave-one-out values in one call, results assembled at once, looks that stop early: the same to the bit)
     def __getitem__(self, name: str) -> np.ndarray:
         return self._columns[name]
 

@@ -7,10 +7,7 @@ import json
 import os
 import platform
 import subprocess
-<<<<<<< HEAD
 import tomllib
-=======
->>>>>>> b724d01 (Host: leave-one-out values in one call, results assembled at once, looks that stop early: the same to the bit)
 from functools import cache
 from importlib import metadata
 from pathlib import Path
@@ -44,7 +41,7 @@ def provenance(scene: AbstractScene, options: Options) -> dict:
         "numpy_version": np.__version__,
         "equinox_version": eqx.__version__,
         "python_version": platform.python_version(),
-        "commit": commit(),
+        "commit": own_commit(),
         "backend": jax.default_backend(),
         "scene": type(scene).__name__,
         "gas_model": type(scene.gas).__name__,
@@ -90,7 +87,6 @@ def version() -> str:
 
 
 @cache
-<<<<<<< HEAD
 def processor() -> str:
     """A word for the kind of processor: the same program rounds differently on another kind."""
     kind = platform.machine()
@@ -101,13 +97,14 @@ def processor() -> str:
     return kind
 
 
-=======
->>>>>>> b724d01 (Host: leave-one-out values in one call, results assembled at once, looks that stop early: the same to the bit)
-def commit() -> str:
-    """The git commit of the package's own checkout, "+" if changed, or "unknown".
+@cache
+def own_commit() -> str:
+    """The same of this process, asked once: its code does not change after."""
+    return commit()
 
-    Asked once a process, whose code does not change after.
-    """
+
+def commit() -> str:
+    """The git commit of the package's own checkout, "+" if changed, or "unknown"."""
     root = Path(__file__).parents[2]
     if not _is_checkout(root):
         return "unknown"

@@ -12,7 +12,7 @@ from ..scenarios.options import Options
 from ..stats import BLOCKS
 from . import faults
 from .engine import Engine
-from .estimates import printed_estimates, steady_changes, steady_estimates
+from .estimates import printed_estimates, realization_estimates, steady_changes
 from .history import History
 from .host_engine import HostEngine
 from .limits import Limits
@@ -224,7 +224,7 @@ class Session:
         if not self.tracker.all_measuring:
             return
         rtol, points = self.limits.rtol, range(len(self.tracker.start))
-        for estimates in (steady_estimates, printed_estimates):
+        for estimates in (realization_estimates, printed_estimates):
             errors = [self._relative_errors(point, estimates) for point in points]
             self.precision = max(max(point.values()) for point in errors)
             self.share = max(point[name] / rtol[name] for point in errors for name in rtol)
