@@ -7,33 +7,53 @@ import numpy as np
 from scipy.stats import t as student
 
 
-def jackknife(means: dict[Any, np.ndarray], function: Callable, axis: int):
+def jackknife(
+    means: dict[Any, np.ndarray], function: Callable, axis: int, *, leading: bool = False
+):
     """Value and standard error of a function of averages over realizations.
 
     Arguments:
         means: per-realization averages; realizations along `axis` of every array.
         function: maps a dict of averages (without that axis) to a dict of observables.
+        leading: True if it takes leading axes of any shape: one call instead of one a realization.
     Returns: three dicts: the observables of the overall averages, one standard error each, and
     their values with one realization left out, stacked along a first axis. The leave-one-out
     estimate of the error is right for any smooth function (Efron 1982).
     """
     count = next(iter(means.values())).shape[axis]
-    value = function({name: np.mean(array, axis=axis) for name, array in means.items()})
-    others = {name: _sums_of_others(array, axis) for name, array in means.items()}
+    whole, others = _all_and_others(means, axis)
+    value = function(whole)
     with np.errstate(invalid="ignore"):  # what is infinite has no error: NaN
-        left_out = [
-            function({name: sums[r] / (count - 1) for name, sums in others.items()})
-            for r in range(count)
-        ]
-        out = {name: np.stack([np.asarray(one[name]) for one in left_out]) for name in value}
+        if leading:
+            found = function(others)
+            out = {n: np.broadcast_to(found[n], (count, *np.shape(value[n]))) for n in value}
+        else:
+            each = [function({name: x[r] for name, x in others.items()}) for r in range(count)]
+            out = {name: np.stack([np.asarray(one[name]) for one in each]) for name in value}
         error = {
             name: np.sqrt((count - 1) * np.var(values, axis=0)) for name, values in out.items()
         }
     return value, error, out
 
 
-def _sums_of_others(values: np.ndarray, axis: int) -> np.ndarray:
-    """For each element along an axis, moved to the front, the sum of all others.
+def _all_and_others(means: dict[Any, np.ndarray], axis: int) -> tuple[dict, dict]:
+    """Averages over an axis, and without each of its elements (these along the first axis).
+
+    Real numbers, one a realization, are taken together: calls of NumPy are what a small run pays.
+    """
+    plain = [n for n, x in means.items() if np.ndim(x) == 1 and np.isrealobj(x)]
+    apart = {name: array for name, array in means.items() if name not in plain}
+    whole = {name: np.mean(array, axis=axis) for name, array in apart.items()}
+    others = {name: _means_of_others(array, axis) for name, array in apart.items()}
+    if plain:
+        together = np.stack([means[name] for name in plain])
+        whole |= dict(zip(plain, np.mean(together, axis=1), strict=True))
+        others |= dict(zip(plain, _means_of_others(together, 1).T, strict=True))
+    return whole, others
+
+
+def _means_of_others(values: np.ndarray, axis: int) -> np.ndarray:
+    """For each element along an axis, moved to the front, the mean of all others.
 
     Without a subtraction: one element may be 10³⁰ times the others.
     """
@@ -41,7 +61,7 @@ def _sums_of_others(values: np.ndarray, axis: int) -> np.ndarray:
     none = np.zeros_like(values[:1])
     before = np.concatenate([none, np.cumsum(values[:-1], axis=0)])
     after = np.concatenate([np.cumsum(values[:0:-1], axis=0)[::-1], none])
-    return before + after
+    return (before + after) / (len(values) - 1)
 
 
 BLOCKS = 4

@@ -31,6 +31,23 @@ def test_error_of_a_ratio():
     assert delta < 0.5 * apart  # the correlation matters here: errors taken apart would be wrong
 
 
+def test_one_call_or_one_a_realization():
+    """The same to the bit, of numbers and profiles, one of which does not depend on the run."""
+    rng = np.random.default_rng(8)
+    means = {"x": rng.normal(size=8), "y": rng.normal(size=8), "z": rng.normal(size=(8, 3))}
+
+    def ratios(m):
+        return {"r": m["x"] / m["y"], "p": m["z"] * np.asarray(m["x"])[..., None], "c": 2.0}
+
+    for a, b in zip(
+        jackknife(means, ratios, axis=0),
+        jackknife(means, ratios, axis=0, leading=True),
+        strict=True,
+    ):
+        for name in ("r", "p", "c"):
+            np.testing.assert_array_equal(a[name], b[name])
+
+
 def test_coverage():
     """z-scores of the ratio of two known means follow Student's t with R - 1 degrees of freedom.
 

@@ -3,6 +3,8 @@
 Equation numbers: Montanero, Santos and Garzó, Physica A 376, 75 (2007). c = V/√(2T/m).
 """
 
+from functools import cache
+
 import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
@@ -89,6 +91,12 @@ def responses(means: dict, field) -> dict:
 
 def sonine(means: dict, kind: str, order: int, index: float):
     """2Γ(1+index) k!/Γ(k+1+index) ⟨c_x L_k^{(index)}⟩; ⟨c_x⟩ = 0 exactly."""
-    polynomial = genlaguerre(order, index).coeffs[::-1]
+    polynomial = _laguerre(order, index)
     average = sum(polynomial[j] * means[f"{kind}{2 * j + 1}"] for j in range(1, order + 1))
     return 2.0 * gamma(1 + index) * gamma(order + 1) / gamma(order + 1 + index) * average
+
+
+@cache
+def _laguerre(order: int, index: float) -> np.ndarray:
+    """Coefficients of L_k^{(index)}, that of x^0 first."""
+    return genlaguerre(order, index).coeffs[::-1]

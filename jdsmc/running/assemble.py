@@ -11,7 +11,13 @@ from ..results.result import FREEDOM, Result
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
 from ..stats import jackknife
-from .estimates import against_time, averages_to_print, estimates_of
+from .estimates import (
+    against_time,
+    averages_to_print,
+    check_leading_axes,
+    estimates_of,
+    takes_leading_axes,
+)
 from .history import History
 from .provenance import provenance, run_name
 from .session import Session
@@ -43,7 +49,7 @@ class Labels:
 
         Arguments: arrays by name, `<name>_error` included; what the names mean.
         """
-        data = xr.Dataset(coords=self.coords)
+        data = {}
         known = {one.name: one for one in observables}
         for name, values in columns.items():
             plain = name.removesuffix("_error").removesuffix("_truncation")
@@ -61,7 +67,9 @@ class Labels:
                 array.reshape(self.shape + array.shape[1:]),
                 attributes,
             )
-        return data.assign_coords({n: c for n, c in self.axes.items() if n in data.dims})
+        used = {dim for dims, *_ in data.values() for dim in dims}
+        axes = {name: axis for name, axis in self.axes.items() if name in used}
+        return xr.Dataset(data, coords=self.coords | axes)
 
     def likely_dims(self, name: str, shape: tuple[int, ...]) -> tuple[str, ...]:
         """Of what no observable describes: the only axis of that length, or one of its own."""
@@ -139,6 +147,9 @@ def _steady(scene, labels, session, settled, attrs: dict) -> tuple[dict, dict]:
     groups = {"/": labels.dataset(columns, (*scene.reports, *STEADY_FROM, DEGREES_OF_FREEDOM))}
     left_out = _each(_as_many([one and one[2] for one in estimates]))
     groups["/left_out"] = labels.dataset(left_out, scene.reports, ("realization",))
+    for p in points:
+        if averages[p] is not None:
+            check_leading_axes(history.scenes[p], averages[p][0])
     sums, dims = (
         _each([one and one[0] for one in averages]),
         {one.name: one for one in scene.reports},
@@ -284,7 +295,7 @@ def _one_series(history: History, point: int) -> dict[str, np.ndarray]:
             found[COLLISION_RATIO.name] = ratio
         return found
 
-    value, error, _ = jackknife(means, observables, axis=0)
+    value, error, _ = jackknife(means, observables, axis=0, leading=takes_leading_axes(one))
     return {TIME.name: time, **value, **{f"{name}_error": e for name, e in error.items()}}
 
 

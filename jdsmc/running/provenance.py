@@ -41,7 +41,7 @@ def provenance(scene: AbstractScene, options: Options) -> dict:
         "numpy_version": np.__version__,
         "equinox_version": eqx.__version__,
         "python_version": platform.python_version(),
-        "commit": commit(),
+        "commit": own_commit(),
         "backend": jax.default_backend(),
         "scene": type(scene).__name__,
         "gas_model": type(scene.gas).__name__,
@@ -95,6 +95,12 @@ def processor() -> str:
         told = next((line for line in lines if line.startswith(("flags", "Features"))), "")
         kind += "-" + hashlib.blake2b(told.encode(), digest_size=4).hexdigest()
     return kind
+
+
+@cache
+def own_commit() -> str:
+    """The same of this process, asked once: its code does not change after."""
+    return commit()
 
 
 def commit() -> str:

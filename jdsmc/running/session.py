@@ -1,5 +1,7 @@
 """A run under way, of any scene: engine, history, steady-state tracker, precision."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from ..derivatives.request import Request
@@ -9,7 +11,7 @@ from ..scenarios.options import Options
 from ..stats import BLOCKS
 from . import faults
 from .engine import Engine
-from .estimates import printed_estimates, steady_changes
+from .estimates import printed_estimates, realization_estimates, steady_changes
 from .history import History
 from .host_engine import HostEngine
 from .limits import Limits
@@ -200,7 +202,7 @@ class Session:
         """Look, and tell if it is enough; a start that was moved on has less to show."""
         if not self._long_enough():
             return False
-        self._look()
+        self._look(unless_too_large=True)
         return self.share <= 1.0
 
     def _long_enough(self) -> bool:
@@ -211,29 +213,31 @@ class Session:
             for p, scene in enumerate(history.scenes)
         )
 
-    def _look(self) -> None:
-        """Relative error at the worst point: the largest, and the largest in units of `rtol`."""
-        if self.tracker.all_measuring:
-            errors = [self._relative_errors(point) for point in range(len(self.tracker.start))]
-            rtol = self.limits.rtol
+    def _look(self, unless_too_large: bool = False) -> None:
+        """Relative error at the worst point: the largest, and the largest in units of `rtol`.
+
+        As they would be printed, that is the larger of two: a run that stops when one estimate
+        happens to be small would print errors that are too small. `unless_too_large`: the second is
+        left out if the first says already that the run must go on.
+        """
+        if not self.tracker.all_measuring:
+            return
+        rtol, points = self.limits.rtol, range(len(self.tracker.start))
+        for estimates in (realization_estimates, printed_estimates):
+            errors = [self._relative_errors(point, estimates) for point in points]
             self.precision = max(max(point.values()) for point in errors)
             self.share = max(point[name] / rtol[name] for point in errors for name in rtol)
+            if unless_too_large and self.share > 1.0:
+                return
 
-    def _relative_errors(self, point: int) -> dict[str, float]:
-        """The relative errors of the observables asked for, as they would be printed.
-
-        The larger of two: a run that stops when one estimate happens to be small would print
-        errors that are too small.
-        """
+    def _relative_errors(self, point: int, estimates: Callable) -> dict[str, float]:
+        """The relative errors of the observables asked for."""
         first = int(self.tracker.start[point])
         least = 1 if self.correlated or self.limits.records is not None else 2 * BLOCKS
         if self.history.length - first < least:
             return dict.fromkeys(self.limits.observables, np.inf)
-        value, error, _ = printed_estimates(self.history, point, first)
-        return {
-            name: float(np.max(error[name] / np.abs(value[name])))
-            for name in self.limits.observables
-        }
+        value, error, _ = estimates(self.history, point, first, self.limits.observables)
+        return {name: float(np.max(error[name] / np.abs(value[name]))) for name in value}
 
     def progress(self) -> float:
         """Share of the work done, as far as it can be known."""

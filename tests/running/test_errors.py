@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from jdsmc import InelasticHardSpheres
-from jdsmc.running.estimates import printed_estimates
+from jdsmc import FaultError, InelasticHardSpheres
+from jdsmc.running.estimates import check_leading_axes, printed_estimates
 from jdsmc.running.history import History
 from tests.running.test_steady import MadeUp, Shown, Tally
 
@@ -53,3 +53,18 @@ def test_no_value_is_five_errors_off():
     assert np.max(scores) < 5.0
     # the larger of two is larger than one: 95.0% within two, 91.4% of realizations alone
     assert 0.93 < np.mean(scores < 2.0) < 0.97
+
+
+class Centred(MadeUp):
+    """Subtracts the mean over all of an axis, whatever that is."""
+
+    def observables(self, means):
+        return {"temperature": means["temperature"] - np.mean(means["temperature"])}
+
+
+def test_observables_that_mix_realizations_are_refused():
+    """Leave-one-out values are found in one call: what does not keep them apart is told."""
+    means = {"temperature": np.arange(8.0)}
+    check_leading_axes(MadeUp(InelasticHardSpheres(1.0)), means)
+    with pytest.raises(FaultError, match="must take averages with leading axes"):
+        check_leading_axes(Centred(InelasticHardSpheres(1.0)), means)

@@ -37,7 +37,7 @@ def test_a_precision_for_each_observable():
 def test_until_every_point_is_precise(worst, monkeypatch):
     """In a sweep the worst point decides."""
 
-    def errors(self, point):
+    def errors(self, point, estimates):
         return {"shear_stress": 0.5 if point == worst else 1e-9}
 
     monkeypatch.setattr(Session, "_relative_errors", errors)
