@@ -9,7 +9,6 @@ from ..collisions.meet import Collisions
 from ..types import Key, Scalar, Velocity
 from .options import Options
 
-
 LARGEST_SHARE = 0.9
 """Share of the slots that are candidates at most. A pair that outruns the majorant by less than 11%
 then still collides as often as it should: a gas that heats up within a record makes such pairs."""

@@ -12,7 +12,6 @@ from jdsmc.scenarios import (
     ShearedSlab,
     UniformShear,
 )
-
 from jdsmc.units import COOLING, VISCOSITY_TIME
 
 from . import truths
@@ -100,7 +99,7 @@ def steps_and_sizes() -> list[Point]:
 
 
 def frictional() -> list[Point]:
-    """Rate factors from 0.01 to 2 at one x = d(1-α²)/β, that of α = 0.9: stresses depend on it alone.
+    """Rate factors from 0.01 to 2 at one x = d(1-α²)/β, that of α = 0.9: only it matters.
 
     And the shear supplies what the drag takes, exactly: (2/3) Π aτ = 2d(1-α²)/3√π.
     """
