@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from .. import sweep
-from ..results.result import Result
+from ..results.result import FREEDOM, Result
 from .estimates import estimates_of
 
 LINEAR = ("series", "distribution", "sensitivity", "sensitivity_series")
@@ -43,6 +43,10 @@ def more_realizations(results: list[Result], classes: tuple[type, ...]) -> Resul
         groups |= {f"/{n}": xr.concat(of(n), along) for n, along in rows.items()}
         made, groups["/left_out"] = pooled(results[0].scene(*classes), root, groups)
         root = root.assign(made)
+    if FREEDOM in root:  # what the runs differ by counts where they are pooled
+        between = len(results) - 1 if "averages" in shared else 0
+        own = np.sum([one.steady[FREEDOM].values for one in results], axis=0)
+        root[FREEDOM] = root[FREEDOM].copy(data=own + between)
     root.attrs = results[0].attrs | {
         "seed": seeds,
         "n_realizations": int(np.sum(counts)),

@@ -120,8 +120,8 @@ class HomogeneousCooling(AbstractHomogeneous):
         """Averages over the particles at each record, the true temperature, the plain time."""
         averages = super().averages(record)
         elapsed, log_scale = (np.asarray(x) for x in (record.elapsed, record.log_scale))
+        averages["log_plain_time"] = log_plain_time(elapsed, log_scale, self.exponent or 0.0)
         if self.exponent is not None:
-            averages["log_plain_time"] = log_plain_time(elapsed, log_scale, self.exponent)
             del averages["instant_rate"]  # the steps know better
         with np.errstate(under="ignore"):
             averages["true_temperature"] = averages["temperature"] * np.exp(2.0 * log_scale)

@@ -69,6 +69,7 @@ def test_realizations_count_together(seeds):
         assert value == pytest.approx((8 * a + 16 * b) / 24, abs=0.1 * error)
         assert 0.5 * min(ea, eb) < error < max(ea, eb)
     assert merged.to_xarray()["averages"].sizes["realization"] == 24
+    assert merged["a2"].degrees_of_freedom == 23
 
 
 def test_merged_twice_is_merged_at_once(seeds):
@@ -99,6 +100,7 @@ def test_without_averages_estimates_are_averaged(seeds):
         assert value == pytest.approx((8 * a + 16 * b) / 24, rel=1e-12)
         assert error == pytest.approx(np.hypot(8 * ea, 16 * eb) / 24, rel=1e-12)
         assert (1.0 * merged[name]).error == pytest.approx(error, rel=1e-9)
+    assert merged["a2"].degrees_of_freedom == 7 + 15  # how the runs differ is not asked
 
 
 def test_transients_are_averaged():
