@@ -43,3 +43,17 @@ def pytest_configure(config):
     os.environ["JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS"] = "0"
     for name in ("NPROC", "OPENBLAS_NUM_THREADS"):
         os.environ.setdefault(name, "1")
+
+
+LONGEST = (
+    *("test_notebooks", "test_sheared_slab", "test_steady", "test_cooling_disks", "test_views"),
+    *("test_sensitivity", "test_heat_flux_force", "test_uniform_shear", "test_impulse_response"),
+    *("test_fourier_flow", "test_own_gas", "test_run", "test_pairs"),
+)
+"""Files of tests that take most, 20 s of CPU and more."""
+
+
+def pytest_collection_modifyitems(items):
+    """The longest first, so that no process is left alone with one at the end."""
+    rank = {name: number for number, name in enumerate(LONGEST)}
+    items.sort(key=lambda item: rank.get(item.path.stem, len(rank)))
