@@ -7,11 +7,9 @@ All of jdsmc but `theory`, plain NumPy on anything array-like, which beartype ca
 import importlib.util
 import os
 import pkgutil
+import tempfile
 
 from jaxtyping import install_import_hook
-
-if "PYTEST_XDIST_WORKER" in os.environ:  # one thread of XLA in each of the processes
-    os.environ.setdefault("NPROC", "1")
 
 _SPEC = importlib.util.find_spec("jdsmc")
 assert _SPEC is not None
@@ -29,3 +27,33 @@ import matplotlib  # noqa: E402
 matplotlib.use("agg")
 # A float64 constant must not widen a float32 gas, nor an integer become a float, unnoticed.
 jax.config.update("jax_numpy_dtype_promotion", "strict")
+
+
+def pytest_configure(config):
+    """What processes side by side inherit: one thread each, and programs compiled by another.
+
+    Told to themselves it would come too late: NumPy is loaded before this file. Threads of linear
+    algebra wait busily for each other, which took fifteen times the work.
+    """
+    if not getattr(config.option, "numprocesses", None) or hasattr(config, "workerinput"):
+        return
+    programs = tempfile.TemporaryDirectory()
+    config.add_cleanup(programs.cleanup)
+    os.environ["JAX_COMPILATION_CACHE_DIR"] = programs.name
+    os.environ["JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS"] = "0"
+    for name in ("NPROC", "OPENBLAS_NUM_THREADS"):
+        os.environ.setdefault(name, "1")
+
+
+LONGEST = (
+    *("test_notebooks", "test_sheared_slab", "test_steady", "test_cooling_disks", "test_views"),
+    *("test_sensitivity", "test_heat_flux_force", "test_uniform_shear", "test_impulse_response"),
+    *("test_fourier_flow", "test_own_gas", "test_run", "test_pairs"),
+)
+"""Files of tests that take most, 20 s of CPU and more."""
+
+
+def pytest_collection_modifyitems(items):
+    """The longest first, so that no process is left alone with one at the end."""
+    rank = {name: number for number, name in enumerate(LONGEST)}
+    items.sort(key=lambda item: rank.get(item.path.stem, len(rank)))

@@ -62,7 +62,8 @@ def docs(python: Path, rest: list[str]) -> int:
 
 def pytest(python: Path, rest: list[str]) -> int:
     """The tests alone (style and types were checked with the newest Python), a process a core."""
-    side_by_side = ["-n", "auto", "--maxprocesses", "4", "--dist", "loadscope"]
+    side_by_side = ["-n", "auto", "--maxprocesses", "4"]
+    side_by_side += ["--dist", "loadscope", "--no-loadscope-reorder"]
     return call([python, "-m", "pytest", "-q", "-m", "not slow", *side_by_side, *rest])
 
 

@@ -7,7 +7,10 @@ import jdsmc
 from jdsmc import InelasticHardSpheres
 from jdsmc.scenarios import HomogeneousCooling, UniformShear
 
-SMALL = {"n_particles": 256, "progress": False, "seed": 3}
+SMALL = {
+    **{"n_particles": 512, "time_step": 0.1, "steps_per_record": 8},  # of `small`: compiled once
+    **{"progress": False, "seed": 3},
+}
 
 
 def shear(restitution=(0.6, 0.8), **limits):

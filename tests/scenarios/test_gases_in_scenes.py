@@ -41,6 +41,10 @@ def test_maxwell_molecules_collide_at_a_rate_of_their_own():
         assert within(rate / RELAXATION - 3999 / 4000)
 
 
+EVERY_STEP = {"n_particles": 2000, "steps_per_record": 1, "progress": False}
+"""One compiled program for those below."""
+
+
 def _pressure(rate, times):
     """Pressure tensor (over nT0) of sheared Maxwell molecules: closed equations, solved."""
 
@@ -68,8 +72,8 @@ def test_sheared_maxwell_molecules_obey_their_moment_equations(rate):
     relative curvature of (0.05)²/8 at T'' = a² T, and the splitting's (a dt)²/12 alike: 6e-4.
     """
     scene = UniformShear(MaxwellMolecules(), rate)
-    options = {"n_particles": 2000, "n_realizations": 32, "steps_per_record": 1, "seed": 5}
-    series = jdsmc.run(scene, duration=3.0 / rate, progress=False, **options).series
+    options = {"n_realizations": 32, "duration": 3.0 / rate, "seed": 5}
+    series = jdsmc.run(scene, **options, **EVERY_STEP).series
     picked = np.linspace(0, len(series["time"]) - 1, 7).astype(int)[1:]
     here = series.isel(sample=picked)
     xx, yy, zz, xy = _pressure(rate, here["time"].values)
@@ -90,7 +94,7 @@ def test_sheared_maxwell_molecules_obey_their_moment_equations(rate):
 def test_reduced_shear_rate_of_maxwell_molecules():
     """τ_η does not depend on T: a* = a τ_η at all times, and η* tends to -P_xy/nT over it."""
     scene = UniformShear(MaxwellMolecules(), 1.0)
-    series = jdsmc.run(scene, n_particles=500, duration=2.0, progress=False).series
+    series = jdsmc.run(scene, duration=2.0, **EVERY_STEP).series
     reduced = series["reduced_shear_rate"].values
     np.testing.assert_allclose(reduced, reduced[0], rtol=1e-12)
     np.testing.assert_allclose(

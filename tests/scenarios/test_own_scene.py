@@ -134,7 +134,7 @@ def test_is_swept_and_a_point_is_its_single_run(name):
     """Any number may be an array; at fixed collisions a point is the single run, bit by bit."""
     scene, _ = SCENES[name]
     field = "noise" if name == "homogeneous" else "length"
-    options = SMALL | {"n_particles": 500, "collisions": 3.0}
+    options = SMALL | {"collisions": 3.0}  # the sizes of `ran`: one program
     values = np.array([0.5, 1.5])
     swept = jdsmc.run(replace(scene, **{field: values}), **options).series
     single = jdsmc.run(replace(scene, **{field: values[1]}), **options).series

@@ -1,5 +1,8 @@
 """The sheared slab: balances, limits, initial states, the homogeneous gas, commands."""
 
+from dataclasses import replace
+
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import matplotlib.pyplot as plt
@@ -22,24 +25,33 @@ SQRT_PI = np.sqrt(np.pi)
 def _states(scene, records, *, n_particles=2000, n_realizations=16, steps=1, time_step=0.05):
     """States of every realization before the records and after the last, and the records."""
     options = Options.checked(n_particles, time_step, "strang", "float32", steps, in_space=True)
-    one = traced(scene)
-
-    @jax.jit
-    def all_records(keys):
-        def realization(key):
-            def record(state, number):
-                new, made = one.advance(random.fold_in(key, number), state, options)
-                return new, (state, made)
-
-            start = one.initial(random.fold_in(key, 2**20), options)
-            last, (before, made) = jax.lax.scan(record, start, jnp.arange(records))
-            states = jax.tree.map(lambda x, y: jnp.concatenate([x, y[None]]), before, last)
-            return states, made
-
-        return jax.lax.map(realization, keys)
-
-    states, made = all_records(keys(1, n_realizations))
+    start, own = traced(scene), keys(1, n_realizations)
+    states = _starts(start, own, options)
+    # how a gas began is no part of how it goes on: one program for all
+    states, made = _records(
+        replace(start, initial_state="equilibrium"), own, states, options, records
+    )
     return jax.tree.map(lambda x: np.asarray(x, float), (states, made))
+
+
+@eqx.filter_jit
+def _starts(scene, keys, options):
+    return jax.lax.map(lambda key: scene.initial(random.fold_in(key, 2**20), options), keys)
+
+
+@eqx.filter_jit
+def _records(scene, keys, states, options, count):
+    def realization(given):
+        key, start = given
+
+        def record(state, number):
+            new, made = scene.advance(random.fold_in(key, number), state, options)
+            return new, (state, made)
+
+        last, (before, made) = jax.lax.scan(record, start, jnp.arange(count))
+        return jax.tree.map(lambda x, y: jnp.concatenate([x, y[None]]), before, last), made
+
+    return jax.lax.map(realization, (keys, states))
 
 
 def _peculiar(states, shear_rate, length):
