@@ -147,9 +147,9 @@ def _steady(scene, labels, session, settled, attrs: dict) -> tuple[dict, dict]:
     groups = {"/": labels.dataset(columns, (*scene.reports, *STEADY_FROM, DEGREES_OF_FREEDOM))}
     left_out = _each(_as_many([one and one[2] for one in estimates]))
     groups["/left_out"] = labels.dataset(left_out, scene.reports, ("realization",))
-    for p in points:
-        if averages[p] is not None:
-            check_leading_axes(history.scenes[p], averages[p][0])
+    for p, one in enumerate(averages):
+        if one is not None:
+            check_leading_axes(history.scenes[p], one[0])
     sums, dims = (
         _each([one and one[0] for one in averages]),
         {one.name: one for one in scene.reports},

@@ -22,7 +22,7 @@ RUNS = {
     "for a time": (scenarios.HomogeneousCooling(InelasticHardSpheres(0.9)), {"duration": 20.0}),
     "in space": (
         scenarios.FourierFlow(InelasticHardSpheres(1.0), length=2.0, cold_temperature=0.5),
-        {"duration": 10.0, "n_particles": 640, "steps_per_record": 8},
+        {"duration": 25.0, "n_particles": 640, "steps_per_record": 8},
     ),
     "on the host": (
         scenarios.MolecularDynamics(InelasticHardDisks(0.9), density=0.05),

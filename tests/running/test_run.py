@@ -1,5 +1,7 @@
 """Runs as a user makes them: when they stop, and what they measure."""
 
+import io
+
 import numpy as np
 import pytest
 from scipy import stats
@@ -70,12 +72,16 @@ def test_for_a_number_of_collisions():
     assert 20 - 2 < last[0] < 20 + 16
 
 
-def test_progress_bar(capfd):
+def test_progress_bar(monkeypatch):
+    """On a terminal: the phases, and what is asked."""
+    terminal = io.StringIO()
+    terminal.isatty = lambda: True
+    monkeypatch.setattr("sys.stderr", terminal)
     simulate(rtol=0.1, progress=True)
-    text = capfd.readouterr().err
+    text = terminal.getvalue()
     assert "warming up" in text and "measuring" in text and "shear_stress" in text
     simulate(duration=1.0, progress=True)
-    assert "running 100%" in capfd.readouterr().err
+    assert "running 100%" in terminal.getvalue().removeprefix(text)
 
 
 # What is measured
