@@ -42,7 +42,16 @@ PARTS = {
     "run": Part(
         "Running",
         "Everything a simulation takes, what it returns and what it raises.",
-        of(jdsmc, "run", "resume", "merge", "sensitivity", "NotSteadyError", "FaultError"),
+        of(
+            jdsmc,
+            "run",
+            "resume",
+            "merge",
+            "join_hosts",
+            "sensitivity",
+            "NotSteadyError",
+            "FaultError",
+        ),
     ),
     "scenes": Part(
         "Scenes",
