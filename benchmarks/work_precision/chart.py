@@ -5,6 +5,7 @@ from pathlib import Path
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
 
 from ..timing import machine
 from .measure import DEFAULT, QUICK, REFERENCE
@@ -41,10 +42,11 @@ def draw(scene: Studied, rows: list[dict], folder: Path) -> Path:
                           label="default", zorder=5)  # fmt: skip
         axes.set(xscale="log", yscale="log", xlabel="CPU time (s)",
                  ylabel=f"relative error of {name.replace('_', ' ')}")  # fmt: skip
+        axes.xaxis.set_minor_formatter(NullFormatter())
         axes.margins(0.15)
     handles, labels = figure.axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels), frameon=False)
-    figure.suptitle(f"{scene.name}: error (bias and one standard error) against cost")
+    figure.legend(handles, labels, loc="outside lower center", ncols=2 * count, frameon=False)
+    figure.suptitle(f"{scene.name}: error (bias and noise) against cost", fontsize=10)
     path = folder / f"work_precision_{scene.name}.png"
     figure.savefig(path, dpi=130)
     return path
