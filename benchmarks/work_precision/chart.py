@@ -1,0 +1,89 @@
+"""A picture a scene, error against cost with the default marked, and the table of the defaults."""
+
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
+
+from ..timing import machine
+from .measure import DEFAULT, QUICK, REFERENCE
+from .scenes import Studied
+
+WIDTH, HEIGHT = 4.6, 3.8
+FAR = 3.0
+"""A bias is seen if it is so many standard errors."""
+
+
+def draw(scene: Studied, rows: list[dict], folder: Path) -> Path:
+    """Error (bias and one standard error, in quadrature) against CPU time, both relative axes."""
+    mpl.use("agg")
+    count = len(scene.observables)
+    figure = Figure((WIDTH * count, HEIGHT), layout="constrained")
+    for axes, name in zip(np.ravel(figure.subplots(1, count)), scene.observables, strict=True):
+        own = [r for r in rows if (r["scene"], r["observable"]) == (scene.name, name)]
+        for marker, knob in zip("osD^v", scene.knobs, strict=False):
+            points = sorted(
+                ((float(r["cost_cpu_seconds"]), relative(r), r["setting"]) for r in own
+                 if r["knob"] == knob), key=lambda point: point[0],
+            )  # fmt: skip
+            if not points:
+                continue
+            label = knob.replace("_", " ")
+            (line,) = axes.plot(*zip(*[p[:2] for p in points], strict=True), marker, ms=5,
+                                ls="-", lw=0.6, label=label)  # fmt: skip
+            for cost, error, setting in points:
+                axes.annotate(setting, (cost, error), xytext=(3, 3), fontsize=6,
+                              textcoords="offset points", color=line.get_color())  # fmt: skip
+        for row in own:
+            if row["knob"] == DEFAULT:
+                axes.plot(float(row["cost_cpu_seconds"]), relative(row), "k*", ms=13,
+                          label="default", zorder=5)  # fmt: skip
+        axes.set(xscale="log", yscale="log", xlabel="CPU time (s)",
+                 ylabel=f"relative error of {name.replace('_', ' ')}")  # fmt: skip
+        axes.xaxis.set_minor_formatter(NullFormatter())
+        axes.margins(0.15)
+    handles, labels = figure.axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=2 * count, frameon=False)
+    figure.suptitle(f"{scene.name}: error (bias and noise) against cost", fontsize=10)
+    path = folder / f"work_precision_{scene.name}.png"
+    figure.savefig(path, dpi=130)
+    return path
+
+
+def relative(row: dict) -> float:
+    """The error of a row in units of the true value."""
+    return float(row["error"]) / abs(float(row["value"]) - float(row["bias"]))
+
+
+def defaults(rows: list[dict], *, quick: bool) -> str:
+    """A page: what is off at the defaults, and where the truth comes from."""
+    lines = [
+        "# Error against cost",
+        "",
+        "Made by `python -m benchmarks.work_precision" + (" --quick" if quick else "") + "`; do "
+        f"not edit. {machine()['processor']}, jax {machine()['jaxlib']}."
+        + (f" Rows of {QUICK:g} of the usual length." if quick else ""),
+        "",
+        "Differences from the truth at the defaults, in percent of it. The error of a row is the "
+        "difference and one standard error in quadrature; a difference below some standard errors "
+        "is noise, and says only that the bias is not larger.",
+        "",
+        "| scene | observable | truth by | value | difference (%) | standard error (%) | seen |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    by_reference = {r["scene"] for r in rows if r["knob"] == REFERENCE}
+    for row in rows:
+        if row["knob"] != DEFAULT:
+            continue
+        value, bias, error = (float(row[name]) for name in ("value", "bias", "error"))
+        spread = np.sqrt(max(error**2 - bias**2, 0.0))
+        scale = 100 / abs(value - bias)
+        source = "a longer run nearer to the limit" if row["scene"] in by_reference else "theory"
+        seen = "yes" if abs(bias) > FAR * spread else "no"
+        lines.append(
+            f"| {row['scene']} | {row['observable'].replace('_', ' ')} | {source} | {value:.5g} | "
+            f"{scale * bias:+.2f} | {scale * spread:.2f} | {seen} |"
+        )
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,145 @@
+"""What is run: scenes at one point each, their knobs, and the truth their errors are taken from."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from jdsmc import InelasticHardDisks, InelasticHardSpheres
+from jdsmc.scenarios import (
+    CoolingDisks,
+    FourierFlow,
+    HeatFluxForce,
+    HomogeneousCooling,
+    ShearedSlab,
+    UniformShear,
+)
+from jdsmc.theory import boltzmann, langevin
+
+GAS = InelasticHardSpheres(0.7)
+
+
+@dataclass(frozen=True)
+class Studied:
+    """A scene with its knobs.
+
+    Arguments: its name; `make`, the scene with some of its own sizes changed; observables; options
+    of `run` for the length of a row; knobs, by name the settings that are tried one at a time,
+    of `run` or of the scene; `truth`, values of the observables by deterministic theory, or the
+    settings of a run that is closer to the limit (a reference), `longer` times as long.
+    """
+
+    name: str
+    make: Callable[..., Any]
+    observables: tuple[str, ...]
+    length: dict[str, float]
+    knobs: dict[str, tuple]
+    truth: dict[str, float] = field(default_factory=dict)
+    reference: dict[str, Any] = field(default_factory=dict)
+    longer: float = 10.0
+
+
+def _mode() -> dict[str, float]:
+    mode = langevin.transverse_mode(0.8, 10.0)
+    names = ("viscosity_ratio", "noise_viscosity_ratio")
+    return {name: float(getattr(mode, name)) for name in names} | {"temperature": 1.0}
+
+
+def _disks(copies=None, real_per_cell=None, **_):
+    sizes = {"copies": copies, "real_per_cell": real_per_cell}
+    given = {name: value for name, value in sizes.items() if value is not None}
+    return CoolingDisks(InelasticHardDisks(0.8), density=0.01, **given)
+
+
+def _slab(layers=None, **_):
+    sizes = {} if layers is None else {"layers": layers}
+    return ShearedSlab(GAS, 4.0, 2.5, **sizes)
+
+
+def _fourier(layers=None, **_):
+    sizes = {} if layers is None else {"layers": layers}
+    return FourierFlow(InelasticHardSpheres(1.0), length=10.0, cold_temperature=0.5, **sizes)
+
+
+STEPS = (0.0125, 0.025, 0.05, 0.1, 0.2)
+SPLITTING = ("strang", "lie")
+
+SCENES = (
+    Studied(
+        "shear",
+        lambda **_: UniformShear(GAS, 4.0),
+        ("shear_stress", "temperature", "a2"),
+        {"collisions": 400.0},
+        {
+            "time_step": STEPS,
+            "n_particles": (640, 1280, 2560, 5120, 20000),
+            "splitting": SPLITTING,
+            "steps_per_record": (4, 8, 16, 32),
+        },
+        reference={"time_step": 0.0125, "n_particles": 20000},
+    ),
+    Studied(
+        "cooling",
+        lambda **_: HomogeneousCooling(InelasticHardSpheres(0.5)),
+        ("a2",),
+        {"collisions": 400.0},
+        {
+            "time_step": STEPS,
+            "n_particles": (640, 1280, 2560, 5120, 20000),
+            "steps_per_record": (4, 8, 16, 32),
+        },
+        truth={"a2": boltzmann.navier_stokes(0.5).a2},
+    ),
+    Studied(
+        "heat-flux",
+        lambda **_: HeatFluxForce(GAS, 0.025),
+        ("modified_conductivity",),
+        {"collisions": 300.0},
+        {
+            "time_step": STEPS,
+            "n_particles": (5120, 20000, 40000),
+            "splitting": SPLITTING,
+            "steps_per_record": (4, 8, 16),
+        },
+        truth={"modified_conductivity": boltzmann.navier_stokes(0.7).modified_conductivity},
+    ),
+    Studied(
+        "sheared-slab",
+        _slab,
+        ("shear_stress", "mean_temperature"),
+        {"collisions": 150.0},
+        {
+            "time_step": (0.025, 0.05, 0.1),
+            "n_particles": (1000, 2500, 5000),
+            "layers": (5, 10, 25, 50),
+            "splitting": SPLITTING,
+        },
+        reference={"time_step": 0.025, "n_particles": 10000, "layers": 50},
+        longer=4.0,
+    ),
+    Studied(
+        "fourier",
+        _fourier,
+        ("mean_heat_flux", "conductivity"),
+        {"duration": 600.0},
+        {
+            "time_step": (0.0125, 0.025, 0.05),
+            "n_particles": (1250, 2500, 5000),
+            "layers": (25, 50, 100),
+            "splitting": SPLITTING,
+        },
+        reference={"time_step": 0.0125, "n_particles": 10000, "layers": 100},
+        longer=4.0,
+    ),
+    Studied(
+        "cooling-disks",
+        _disks,
+        ("viscosity_ratio", "noise_viscosity_ratio", "temperature"),
+        {"duration": 600.0, "n_particles": 1000},
+        {
+            "time_step": (0.035, 0.07, 0.1),
+            "copies": (2, 5, 10, 20),
+            "real_per_cell": (0.5, 1.0, 2.0, 4.0),
+        },
+        truth=_mode(),
+    ),
+)
