@@ -102,10 +102,11 @@ def fourier(result, cold: float, length: float, tolerance: float) -> Truth:
 
 
 def at_rest(result, name: str, expected: float, tolerance: float) -> Truth:
-    """The mean of a series over its later half; blocks of it tell the error."""
+    """The mean of a series over its later half; at most eight blocks of it tell the error."""
     values = result.series[name].values
     half = values[len(values) // 2 :]
     half = half.reshape(len(half), -1).mean(axis=1)
-    blocks = half[: len(half) // 8 * 8].reshape(8, -1).mean(axis=1)
-    error = float(np.std(blocks, ddof=1) / np.sqrt(8))
+    count = min(8, len(half))
+    blocks = half[: len(half) // count * count].reshape(count, -1).mean(axis=1)
+    error = float(np.std(blocks, ddof=1) / np.sqrt(count))
     return Truth(name, float(np.mean(blocks)), error, expected, tolerance)
