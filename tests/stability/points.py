@@ -175,7 +175,7 @@ def walls() -> list[Point]:
         Point(
             *("wall distance", f"{length:g}"),
             flow(0.2, 0.0, length),
-            few | {"time_step": min(0.05, length / 8)},
+            few | {"time_step": min(0.05, length / 8), "n_particles": 2000 if length < 9 else None},
             lambda result, length=length: [
                 *truths.fluxes(result),
                 truths.free_molecular(result, 0.2, 0.05)
