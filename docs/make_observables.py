@@ -58,7 +58,8 @@ and Δκ* at the paper's point z0 from a sweep over gravity.""",
 Measured against published values in [couette_flow.md](couette_flow.md). `z` is the centre of a
 layer in λ0, or a share of the length if that is swept. Steady balances, exact:
 `heat_flux_lower_wall` - `heat_flux_upper_wall` + `wall_work` = `dissipation`, and one shear stress
-in the slab and at both walls. With `wall_velocity` = 0 it is a Fourier flow that may lose energy.""",
+in the slab and at both walls. With `wall_velocity` = 0 it is a Fourier flow that may lose
+energy.""",
     "WhiteNoiseThermostat": """\
 Van Noije and Ernst, *Velocity distributions in homogeneous granular fluids* (1998). In the steady
 state a2 does not depend on the noise, and T follows from it: ξ² = ζT.""",

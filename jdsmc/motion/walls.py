@@ -19,7 +19,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from .. import random
-from ..gases.scatter import root, sin_cos_turns
+from ..gases.scatter import root
 from ..types import Key, Positions, Scalar, Velocities
 
 LARGEST_X = 4.2
@@ -83,7 +83,7 @@ class Walls(eqx.Module):
         dtype = arriving[2].dtype
         first, second = (random.words(key, who, stream + k) for k in (0, 1))
         radius = jnp.sqrt(-jnp.log(random.unit_interval(first[0], dtype)))
-        sine, cosine = sin_cos_turns(random.unit_interval(first[1], dtype))
+        sine, cosine = random.sin_cos_turns(random.unit_interval(first[1], dtype))
         x = jnp.sqrt(-jnp.log(random.unit_interval(second[0], dtype)))
         wall = at_top.astype(jnp.int32)
         thermal = jnp.where(at_top, self.speed[1], self.speed[0])
