@@ -54,6 +54,15 @@ Fourier flow with a gravity field* (2000): (2), (21) to (25), (28), (29), (32). 
 a layer in λ0, or a share of the length if that is swept. κ* stands on the local slope of T^{1+ω},
 κ ∝ T^ω, fitted over one λ0. `jdsmc.results.gravity_effect.at_equal_gradient(result)` takes κ*, g*
 and Δκ* at the paper's point z0 from a sweep over gravity.""",
+    "CouetteFlow": """\
+Measured against published values in [couette_flow.md](couette_flow.md). `z` is the centre of a
+layer in λ0, or a share of the length if that is swept. Steady balances, exact:
+`heat_flux_lower_wall` - `heat_flux_upper_wall` + `wall_work` = `dissipation`, and one shear stress
+in the slab and at both walls. With `wall_velocity` = 0 it is a Fourier flow that may lose
+energy.""",
+    "WhiteNoiseThermostat": """\
+Van Noije and Ernst, *Velocity distributions in homogeneous granular fluids* (1998). In the steady
+state a2 does not depend on the noise, and T follows from it: ξ² = ζT.""",
     "ShearedSlab": """\
 Equations: Astillero and Santos (2005), (4.5) to (4.9): averages over the slab are P̄_ij/n̄T̄; in the
 temperature of a layer N - 1 stands for N. `y` is the centre of a layer in λ0, or a share of the

@@ -33,6 +33,8 @@ SCENES = [
       for gas in (InelasticHardSpheres(1.0), MaxwellMolecules())),
     *(scenarios.ShearedSlab(gas, 1.0, 2.5, state, 5) for gas, state in (
       (IHS, "equilibrium"), (EHS, "nonequilibrium"), (IHS, "local_equilibrium"))),
+    scenarios.CouetteFlow(IHS, 0.5, 0.8, 0.6, length=5.0, layers=5),
+    scenarios.WhiteNoiseThermostat(IHS, 0.2),
     scenarios.NavierStokes(IHS, 0.2, 1.0),
 ]
 

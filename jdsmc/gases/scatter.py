@@ -8,7 +8,8 @@ centres uniformly instead loses a third of the inelastic energy loss.
 
 import jax
 import jax.numpy as jnp
-import numpy as np
+
+from ..random import sin_cos_turns
 
 
 @jax.custom_jvp
@@ -48,18 +49,3 @@ def _disk_outgoing(relative_velocity, uniform):
     b = 2.0 * uniform - 1.0
     along, across = 2.0 * b * b - 1.0, -2.0 * b * jnp.sqrt(1.0 - b * b)
     return along * gx - across * gy, along * gy + across * gx
-
-
-def sin_cos_turns(turns):
-    """sin and cos of 2π·turns for 0 <= turns <= 1, to 1e-6, an order faster than XLA's on a CPU.
-
-    Taylor polynomials of a quarter of the angle, shifted to [-π/4, π/4], doubled twice; the shift
-    by half a turn is a change of sign that a uniform angle would not notice, undone all the same.
-    """
-    t = (turns - 0.5) * (np.pi / 2.0)
-    s = t * t
-    sine = t * (1.0 - s / 6.0 * (1.0 - s / 20.0 * (1.0 - s / 42.0 * (1.0 - s / 72.0))))
-    cosine = 1.0 - s / 2.0 * (1.0 - s / 12.0 * (1.0 - s / 30.0 * (1.0 - s / 56.0)))
-    for _ in range(2):
-        sine, cosine = 2.0 * sine * cosine, 1.0 - 2.0 * sine * sine
-    return -sine, -cosine

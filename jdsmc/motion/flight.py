@@ -1,6 +1,7 @@
 """Free flight between two walls under gravity, and across Lees-Edwards planes."""
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Int32
@@ -16,26 +17,26 @@ MOST_BOUNCES = 100
 
 
 class Exchange(eqx.Module):
-    """What the walls did: energy given to the gas by the walls at z = 0 and z = L (m v0²),
-    and particles that could not finish their flight."""
+    """What the walls at z = 0 and z = L did, and particles that could not finish their flight.
 
-    cold_energy: Scalar
-    hot_energy: Scalar
+    `lower_energy`, `upper_energy`: energy given to the gas (m v0²); `lower_push`, `upper_push`:
+    momentum along x given to it (m v0).
+    """
+
+    lower_energy: Scalar
+    upper_energy: Scalar
+    lower_push: Scalar
+    upper_push: Scalar
     lost: Scalar
 
     @staticmethod
     def none(dtype) -> "Exchange":
         """Nothing happened yet."""
-        zero = jnp.zeros((), dtype)
-        return Exchange(zero, zero, zero)
+        return Exchange(*(jnp.zeros((), dtype) for _ in range(5)))
 
     def then(self, later: "Exchange") -> "Exchange":
         """This and what came later."""
-        return Exchange(
-            self.cold_energy + later.cold_energy,
-            self.hot_energy + later.hot_energy,
-            self.lost + later.lost,
-        )
+        return jax.tree.map(lambda a, b: a + b, self, later)
 
 
 def fly(
@@ -138,18 +139,23 @@ def _fly_once(key: Key, stream, walls: Walls, who, flights, gravity: Scalar, len
     arriving = vz - gravity * time
     place = jnp.where(hit, jnp.where(at_top, length, 0.0), flown)
     rest = remaining - time
-    new = lax.optimization_barrier(walls.emit(key, stream, who, at_top, vz.dtype))
-    gained = 0.5 * (sum(v * v for v in new) - (vx * vx + vy * vy + arriving * arriving))
-    vx, vy, vz = (
-        jnp.where(hit, emitted, old) for emitted, old in zip(new, (vx, vy, arriving), strict=True)
-    )
+    old = (vx, vy, arriving)
+    new = lax.optimization_barrier(walls.give_back(key, stream, who, at_top, old))
+    gained = 0.5 * sum(v * v - u * u for v, u in zip(new, old, strict=True))
+    pushed = new[0] - vx
+    vx, vy, vz = (jnp.where(hit, v, u) for v, u in zip(new, old, strict=True))
     again = hit & (first_hit(place, vz, gravity, length)[0] < rest)
     rest_now = jnp.where(again, 0.0, rest)
     # only rounding can carry a flight without a hit past a wall
     place = jnp.clip(place + rest_now * (vz - 0.5 * gravity * rest_now), 0.0, length)
+    below, above = hit & ~at_top, hit & at_top
+
+    def given(what, there):
+        return jnp.sum(jnp.where(there, what, 0.0))
+
     now = Exchange(
-        jnp.sum(jnp.where(hit & ~at_top, gained, 0.0)),
-        jnp.sum(jnp.where(hit & at_top, gained, 0.0)),
+        *(given(gained, below), given(gained, above)),
+        *(given(pushed, below), given(pushed, above)),
         jnp.zeros((), position.dtype),
     )
     velocity = (vx, vy, vz - gravity * rest_now)

@@ -7,7 +7,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from ..gases.scatter import sin_cos_turns
+from ..random import sin_cos_turns
 from ..types import Layer, Positions, Scalar, Velocities
 from .drive import mean
 

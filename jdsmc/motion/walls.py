@@ -3,7 +3,8 @@
 Tahiri, Tij and Santos, "Monte Carlo simulation of a hard-sphere gas in the planar Fourier flow with
 a gravity field" (2000), section 2. A particle that hits a wall is absorbed and replaced by one with
 the density |v_z| φ(v), eq. (15), φ being a Maxwellian (type I, eq. 17) or the distribution of the
-BGK model under heat conduction (type II, eq. 18).
+BGK model under heat conduction (type II, eq. 18). Walls may move along x, and may reflect a share
+of the particles as a mirror does.
 
 Speeds away from the wall are sampled as w u(x), w = √(2T/m) of the wall and x = √(-ln p) for a
 uniform p: the Maxwellian has u(x) = x, the other one a table of u at equal steps of x.
@@ -18,7 +19,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from .. import random
-from ..gases.scatter import root, sin_cos_turns
+from ..gases.scatter import root
 from ..types import Key, Positions, Scalar, Velocities
 
 LARGEST_X = 4.2
@@ -41,10 +42,16 @@ _LOG_DEPTH = np.linspace(np.log(1e-8), np.log(1e4), 320)
 
 
 class Walls(eqx.Module):
-    """The walls at z = 0 and z = L: thermal speeds √(2T/m), and tables of u(x) or None."""
+    """The walls at z = 0 and z = L: thermal speeds √(2T/m), and tables of u(x) or None.
+
+    `velocity`: of each wall along x, None at rest. `accommodation`: probability that a particle is
+    absorbed and emitted anew, else it is reflected as by a mirror (Maxwell 1879); None for 1.
+    """
 
     speed: Float[Array, "2"]
     table: Float[Array, "2 steps"] | None
+    velocity: Float[Array, "2"] | None = None
+    accommodation: Scalar | None = None
 
     @staticmethod
     def of(kind: str, cold_temperature: Scalar, length: Scalar) -> "Walls":
@@ -65,21 +72,33 @@ class Walls(eqx.Module):
         cold, hot = wall_gradients(cold_temperature, length)
         return Walls(walls.speed, jnp.stack([speed_table(cold, True), speed_table(hot, False)]))
 
-    def emit(self, key: Key, stream, who: Array, at_top: Array, dtype) -> Velocities:
-        """Velocities (x, y, z) of particles emitted upwards at z = 0 or downwards at z = L.
+    def give_back(
+        self, key: Key, stream, who: Array, at_top: Array, arriving: Velocities
+    ) -> Velocities:
+        """Velocities (x, y, z) away from the wall at z = 0, or z = L, of particles that arrive.
 
         Random numbers come from `stream` of the key and the one after it, at the number of each
         particle, `who`: they do not depend on which others are asked for.
         """
+        dtype = arriving[2].dtype
         first, second = (random.words(key, who, stream + k) for k in (0, 1))
         radius = jnp.sqrt(-jnp.log(random.unit_interval(first[0], dtype)))
-        sine, cosine = sin_cos_turns(random.unit_interval(first[1], dtype))
+        sine, cosine = random.sin_cos_turns(random.unit_interval(first[1], dtype))
         x = jnp.sqrt(-jnp.log(random.unit_interval(second[0], dtype)))
         wall = at_top.astype(jnp.int32)
         thermal = jnp.where(at_top, self.speed[1], self.speed[0])
         away = thermal * (x if self.table is None else interpolate(self.table, wall, x))
         tangential = thermal * radius
-        return tangential * cosine, tangential * sine, jnp.where(at_top, -away, away)
+        along = tangential * cosine
+        if self.velocity is not None:
+            along = along + jnp.where(at_top, self.velocity[1], self.velocity[0])
+        emitted = along, tangential * sine, jnp.where(at_top, -away, away)
+        if self.accommodation is None:
+            return emitted
+        absorbed = random.unit_interval(second[1], dtype) < self.accommodation
+        vx, vy, vz = arriving
+        mirrored = (vx, vy, -vz)
+        return tuple(jnp.where(absorbed, a, b) for a, b in zip(emitted, mirrored, strict=True))
 
 
 @partial(jax.custom_jvp, nondiff_argnums=(0,))

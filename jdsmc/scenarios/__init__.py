@@ -3,6 +3,7 @@
 from .approach import Approach
 from .base import AbstractScene, Record
 from .cooling_disks import CoolingDisks
+from .couette_flow import CouetteFlow
 from .fourier_flow import FourierFlow
 from .heat_flux_force import HeatFluxForce
 from .homogeneous import AbstractHomogeneous, homogeneous_observables
@@ -13,12 +14,15 @@ from .options import Options
 from .sheared_slab import ShearedSlab
 from .slab import AbstractSlab, SlabState
 from .uniform_shear import UniformShear
+from .white_noise_thermostat import WhiteNoiseThermostat
 
 SCENES = (
     UniformShear,
     HomogeneousCooling,
+    WhiteNoiseThermostat,
     HeatFluxForce,
     FourierFlow,
+    CouetteFlow,
     ShearedSlab,
     NavierStokes,
     CoolingDisks,
@@ -33,6 +37,7 @@ __all__ = [
     "AbstractSlab",
     "Approach",
     "CoolingDisks",
+    "CouetteFlow",
     "FourierFlow",
     "HeatFluxForce",
     "HomogeneousCooling",
@@ -43,5 +48,6 @@ __all__ = [
     "ShearedSlab",
     "SlabState",
     "UniformShear",
+    "WhiteNoiseThermostat",
     "homogeneous_observables",
 ]

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..gases import AbstractGas, ElasticHardSpheres, InelasticHardSpheres
+from ..gases.hard_spheres import loses_energy
 from ..units import COOLING, VISCOSITY_TIME
 
 
@@ -118,6 +119,25 @@ def of_conduction(cold_temperature: float, gravity: float, length: float) -> App
         0.088 * (length + 4.0) ** 2 * spread,
         log(max(1.0, 2.0 * abs(gravity) * length)),
         certain=abs(gravity) * length < 0.5,
+    )
+
+
+def of_couette_flow(
+    gas: AbstractGas, cold_temperature: float, motion: float, accommodation: float, length: float
+) -> Approach:
+    """Of momentum and heat between moving walls, started from a linear profile.
+
+    Momentum diffuses with 0.56 √T/n, the slower of the two, across L and a slip of about 2 λ0 at
+    either wall, (2-χ)/χ times as long if a share χ of the particles is absorbed: the longest wave
+    takes L²/π² + bL/2 over that, b being the slip. The work of the walls, relative to T, is at most
+    of order U². A gas that loses energy has a time of its own: then the run itself must tell.
+    """
+    slip = 2.0 * (2.0 - accommodation) / accommodation
+    root = sqrt(cold_temperature)
+    return Approach(
+        2.0 + 0.102 * (length**2 + 5.0 * slip * length) / root,
+        log(1.0 + motion**2),
+        certain=not loses_energy(gas) and motion < 2.0,
     )
 
 

@@ -54,20 +54,35 @@ def solve_cooling(restitution: float, order: int) -> CoolingExpansion:
 
     Not restricted to `restitution` <= 1: derivatives at 1 use points on both sides.
     """
+    return _solved(restitution, order, heated=False)
+
+
+def solve_heated(restitution: float, order: int) -> CoolingExpansion:
+    """The steady state under white noise, as `solve_cooling`: van Noije and Ernst (1998).
+
+    J[f, f] + (xi^2/2) d^2f/dc^2 = 0 with xi^2 = zeta/2 at T = 1/2, so that D_ki becomes
+    -int c^2 dphi_i/d(c^2) dphi_k/d(c^2) dc.
+    """
+    return _solved(restitution, order, heated=True)
+
+
+def _solved(restitution: float, order: int, *, heated: bool) -> CoolingExpansion:
+    """Newton's method for what either drive, the dilation or the noise, balances."""
     basis = LaguerreBasis(order, 0, squared_width(restitution))
     tensor = cooling_tensor(basis, restitution)
     loss = (1 - restitution**2) * loss_of_energy(basis)
     square, weight = radial_rule(order + 1, basis.theta / 2)
     values = basis.values(square)
-    dilation = (basis.slopes(square) * weight) @ values.T
+    slopes = basis.slopes(square) * weight
+    drive = -(slopes / square) @ basis.slopes(square).T if heated else slopes @ values.T
     norms = np.stack([basis.moments(0), basis.moments(1)])
     maxwellian = np.exp(-square) / np.pi**1.5
     a = np.linalg.solve((values * weight) @ values.T, (values * weight) @ maxwellian)
     for _ in range(MOST_STEPS):
         rate = a @ loss @ a
         first, second = tensor @ a, np.einsum("kij,i->kj", tensor, a)
-        residual = (first + rate * dilation) @ a
-        slope = first + second + rate * dilation + 2 * np.outer(dilation @ a, loss @ a)
+        residual = (first + rate * drive) @ a
+        slope = first + second + rate * drive + 2 * np.outer(drive @ a, loss @ a)
         step = np.linalg.solve(
             np.vstack([slope[:-2], norms]),
             np.concatenate([residual[:-2], norms @ a - [1.0, 1.5]]),
@@ -76,6 +91,6 @@ def solve_cooling(restitution: float, order: int) -> CoolingExpansion:
         if np.abs(step).max() < TOLERANCE:
             return CoolingExpansion(basis, a, float(a @ loss @ a))
     raise RuntimeError(
-        f"the cooling state at restitution = {restitution}, order = {order} did not converge in "
+        f"the distribution at restitution = {restitution}, order = {order} did not converge in "
         f"{MOST_STEPS} Newton steps; use an order of at least 12 and a restitution in [0.3, 1]."
     )

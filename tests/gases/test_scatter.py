@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from jdsmc import InelasticHardSpheres, random
-from jdsmc.gases.scatter import elastic_outgoing, sin_cos_turns
+from jdsmc.gases.scatter import elastic_outgoing
+from jdsmc.random import sin_cos_turns
 
 N = 2**20
 

@@ -31,7 +31,7 @@ def test_flight_without_a_hit_is_a_parabola(gravity):
     np.testing.assert_allclose(position, 5 + 1.5 * vz - 0.5 * gravity * 1.5**2, rtol=1e-6)
     np.testing.assert_allclose(velocity[2], vz - gravity * 1.5, rtol=1e-6)
     np.testing.assert_allclose(velocity[0], vz)
-    assert float(exchange.cold_energy) == float(exchange.hot_energy) == 0
+    assert float(exchange.lower_energy) == float(exchange.upper_energy) == 0
 
 
 @pytest.mark.parametrize(
@@ -77,7 +77,7 @@ def test_particles_stay_between_the_walls_however_often_they_hit_them(gravity):
         0.5 * np.sum(np.asarray(v, float) ** 2) + gravity * np.sum(np.asarray(z, float))
         for v, z in ((velocity, start), (after, position))
     ]
-    given = float(exchange.cold_energy + exchange.hot_energy)
+    given = float(exchange.lower_energy + exchange.upper_energy)
     # 1e4 hits, each rounded to 1e-7 of an energy of 1
     assert energy[1] - energy[0] == pytest.approx(given, abs=0.02)
 
@@ -174,7 +174,7 @@ def test_heat_flux_of_a_free_molecular_gas():
     late = slice(100, None)  # slow particles need a few crossing times of 1/0.45
     w = np.sqrt(cold)
     expected = -(w / (1 + w)) * (1 - cold) / np.sqrt(np.pi)
-    for energy, sign in ((exchange.cold_energy, 1), (exchange.hot_energy, -1)):
+    for energy, sign in ((exchange.lower_energy, 1), (exchange.upper_energy, -1)):
         flux = sign * np.asarray(energy, float)[late] * length / n
         blocks = flux.reshape(20, -1).mean(axis=1)  # 15 crossing times each
         error = np.std(blocks) / np.sqrt(len(blocks))

@@ -16,8 +16,9 @@ COUNT = 400_000
 def _emitted(walls, top):
     key = random.key_from_seed(3)
     at_top = jnp.full(COUNT, top)
-    who = jnp.arange(COUNT)
-    return [np.asarray(v, float) for v in walls.emit(key, 0, who, at_top, f32)]
+    arriving = tuple(jnp.zeros(COUNT, f32) for _ in range(3))
+    back = walls.give_back(key, 0, jnp.arange(COUNT), at_top, arriving)
+    return [np.asarray(v, float) for v in back]
 
 
 def _check(values, expected):
@@ -39,6 +40,29 @@ def test_maxwell_wall_emits_the_flux_of_a_maxwellian(top, temperature):
         _check(v**2, temperature / 2)
     _check(vx * vz, 0.0)
     _check(vx**4, 0.75 * temperature**2)
+
+
+def test_walls_in_motion_absorb_a_share_and_mirror_the_rest():
+    """A share χ leaves with ⟨v_x⟩ and temperature of the wall, the others as they came."""
+    share, motion = 0.3, np.array([-0.4, 1.1])
+    rest = Walls.maxwell(f32(0.25))
+    walls = Walls(rest.speed, None, jnp.asarray(motion, f32), f32(share))
+    top = jnp.arange(COUNT) % 2 == 1
+    old = (2.0, -3.0, 5.0)
+    arriving = tuple(jnp.full(COUNT, v, f32) for v in (*old[:2], old[2]))
+    arriving = (*arriving[:2], jnp.where(top, arriving[2], -arriving[2]))
+    back = walls.give_back(random.key_from_seed(3), 0, jnp.arange(COUNT), top, arriving)
+    vx, vy, vz = (np.asarray(v, float) for v in back)
+    away = np.where(top, -vz, vz)
+    assert np.all(away > 0)
+    mirrored = (vx == old[0]) & (vy == old[1]) & (away == old[2])
+    _check(~mirrored, share)
+    for wall, temperature in ((0, 0.25), (1, 1.0)):
+        here = ~mirrored & (np.asarray(top) == bool(wall))
+        _check(vx[here], motion[wall])
+        _check((vx[here] - motion[wall]) ** 2, temperature / 2)
+        _check(vy[here], 0.0)
+        _check(away[here] ** 2, temperature)
 
 
 def _quadrature(gradient, cold, power):

@@ -14,12 +14,14 @@ from jdsmc import ElasticHardSpheres, InelasticHardDisks, InelasticHardSpheres, 
 from jdsmc.results.result import Result
 from jdsmc.running.provenance import specification
 from jdsmc.scenarios import (
+    CouetteFlow,
     FourierFlow,
     HeatFluxForce,
     HomogeneousCooling,
     NavierStokes,
     ShearedSlab,
     UniformShear,
+    WhiteNoiseThermostat,
 )
 
 from ..helpers import Viscoelastic
@@ -36,6 +38,8 @@ SCENES = [
     HeatFluxForce(InelasticHardSpheres(0.7), [0.05, 0.1], "paper"),
     FourierFlow(InelasticHardSpheres(1.0), 0.05, 0.01, 5.0, "bgk", 20),
     ShearedSlab(ElasticHardSpheres(0.7), 2.0, [2.5, 5.0], "nonequilibrium", layers=7),
+    CouetteFlow(InelasticHardSpheres(0.9), [0.0, 0.5], 0.5, 0.8, layers=7),
+    WhiteNoiseThermostat(MaxwellMolecules(), 0.2),
     NavierStokes(InelasticHardSpheres(0.6), 0.2, 3.0),
     two_gases(direction=[0.0, 1.0, 0.0]),
     two_gases(direction=np.eye(3)),
