@@ -18,6 +18,8 @@ _CHECKED = [
     for module in pkgutil.iter_modules(_SPEC.submodule_search_locations)
     if module.name not in ("theory", "events")
 ]
+if os.environ.get("PROPERTIES") == "full":  # what is passed there violates annotations on purpose
+    _CHECKED = []
 with install_import_hook(_CHECKED, "beartype.beartype"):
     import jdsmc  # noqa: F401
 

@@ -181,10 +181,10 @@ class _Look:
     def texts(self, one: h5py.Dataset, count: int) -> None:
         """Their length: many may stand for one and the same piece of a file."""
         step = max(1, self.at_once // max(self.size, 1))
-        if one.ndim > 1:
-            raise _Refused(f"{one.name} is text of several axes")
+        if one.ndim > 1 and count > step:
+            raise _Refused(f"{one.name} is much text of several axes")
         for start in range(0, count, step):
-            self.take(_length(one[slice(start, start + step) if one.ndim else ()]))
+            self.take(_length(one[slice(start, start + step) if one.ndim == 1 else ()]))
 
 
 def members(group: h5py.Group) -> Iterator[h5py.Group | h5py.Dataset]:
@@ -194,9 +194,10 @@ def members(group: h5py.Group) -> Iterator[h5py.Group | h5py.Dataset]:
         if not isinstance(group.get(name, getlink=True), h5py.HardLink):
             raise _Refused(f"{where} is a link to elsewhere")
         one = group[name]
-        if not isinstance(one, h5py.Group | h5py.Dataset):
-            raise _Refused(f"{where} is neither a group nor an array")
-        yield one
+        if isinstance(one, h5py.Datatype):  # as netCDF has one for complex numbers
+            _check_plain(one.dtype, where)
+        else:
+            yield one
 
 
 def _check_plain(dtype: np.dtype, where: str) -> None:

@@ -61,6 +61,10 @@ def read(path: str | Path) -> xr.DataTree:
             f"{path} has no seal, so that nobody can tell if it is as jdsmc wrote it.", stacklevel=3
         )
     del tree.attrs["schema"]
+    for name in str(tree.attrs.get("swept", "")).split():  # NetCDF has no arrays of one element
+        label = f"parameter_{name}"
+        if label in tree.attrs:
+            tree.attrs[label] = np.atleast_1d(tree.attrs[label])
     return tree
 
 

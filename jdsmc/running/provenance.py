@@ -30,9 +30,7 @@ def provenance(scene: AbstractScene, options: Options) -> dict:
         for name, value in sweep.parameters(scene).items()
     }
     switches = {
-        f"option_{path.removeprefix('gas.')}": value
-        if isinstance(value, int | float)
-        else str(value)
+        f"option_{path.removeprefix('gas.')}": value if _fits_a_file(value) else str(value)
         for path, value in sweep.statics(scene).items()
     }
     return {
@@ -54,6 +52,13 @@ def provenance(scene: AbstractScene, options: Options) -> dict:
         "splitting": options.splitting,
         "dtype": str(options.dtype),
     }
+
+
+def _fits_a_file(value) -> bool:
+    """True for numbers that NetCDF has: no truth values, no integers of more than 64 bits."""
+    if isinstance(value, bool):
+        return False
+    return isinstance(value, float) or (isinstance(value, int) and abs(value) < 2**63)
 
 
 def specification(module: Any) -> Any:

@@ -149,7 +149,7 @@ class AbstractCoolingDisks(AbstractScene):
             raise ValueError(
                 f"n_particles = {n_real} at density = {float(self.density):g} is too small a "
                 f"system: at N n σ² = {share:.4g} the mode decays as fast as the stress behind it, "
-                f"so there is no viscosity. Take {math.ceil(SMALLEST / float(self.density))} "
+                f"so there is no viscosity. Take {np.ceil(SMALLEST / float(self.density)):.9g} "
                 "particles or more."
             ) from error
 

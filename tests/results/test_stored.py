@@ -176,3 +176,11 @@ def test_a_disk_that_fills(path):
     done = subprocess.run(program, capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["OSError"] * 3, done.stderr
     assert sorted(one.name for one in path.parent.iterdir()) == ["x.h5"]
+
+
+def test_a_sweep_of_one_point(tmp_path):
+    """Its numbers stay arrays, which NetCDF does not tell from numbers."""
+    attrs = ATTRS | {"swept": "restitution", "parameter_restitution": np.array([0.7])}
+    data = xr.Dataset(coords={"restitution": [0.7]}, attrs=attrs)
+    loaded = jdsmc.load(Result(xr.DataTree(data)).save(tmp_path / "x.h5"))
+    assert loaded.attrs["parameter_restitution"].shape == (1,)

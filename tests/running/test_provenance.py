@@ -6,9 +6,14 @@ import subprocess
 from importlib import metadata
 from pathlib import Path
 
+import equinox as eqx
 import pytest
+import xarray as xr
 
+import jdsmc
+from jdsmc.results import Result
 from jdsmc.running import provenance
+from jdsmc.scenarios import HomogeneousCooling, Options
 
 PROJECT = '[project]\nname = "{}"\n'
 
@@ -87,3 +92,24 @@ def test_installed(tmp_path, monkeypatch):
     (tmp_path / "pyproject.toml").write_text(PROJECT.format("jdsmc"))
     monkeypatch.setattr(provenance, "__file__", str(module))
     assert provenance.commit() == "unknown"
+
+
+class Switched(HomogeneousCooling):
+    """A scene with switches that NetCDF has no type for."""
+
+    quick: bool = eqx.field(default=True, static=True)
+    mask: int = eqx.field(default=2**70, static=True)
+
+    def __init__(self, gas):
+        super().__init__(gas)
+        self.quick, self.mask = True, 2**70
+
+
+def test_switches_fit_into_a_file(tmp_path):
+    """Truth values and huge integers as text: else no result of such a run could be saved."""
+    scene = Switched(jdsmc.InelasticHardSpheres(0.7))
+    options = Options.checked(64, 0.1, "strang", "float32", 8)
+    attrs = provenance.provenance(scene, options)
+    assert attrs["option_quick"] == "True" and attrs["option_mask"] == str(2**70)
+    result = Result(xr.DataTree(xr.Dataset(attrs=attrs)))
+    assert jdsmc.load(result.save(tmp_path / "x.h5")).attrs["option_quick"] == "True"
