@@ -51,8 +51,7 @@ class Case:
 
     def sources(self) -> list[Path]:
         """Modules that the simulation starts from."""
-        kicks = isinstance(self.scene, NavierStokes)
-        start = transport.navier_stokes if kicks else run
+        start = transport.navier_stokes if isinstance(self.scene, NavierStokes) else run
         modules = [one.__module__ for one in (type(self.scene), type(self.scene.gas), start)]
         return [Path(str(sys.modules[name].__file__)) for name in modules]
 

@@ -75,16 +75,11 @@ def program(*sources: Path) -> str:
     waiting = list(sources)
     while waiting:
         path = waiting.pop()
-        if path not in found and not _outside(path):
+        if path not in found and not any(path.is_relative_to(PACKAGE / o) for o in OUTSIDE):
             found.add(path)
             waiting += _imported(path)
     text = b"".join(path.read_bytes() for path in sorted(found))
     return hashlib.sha256(text).hexdigest()[:16]
-
-
-def _outside(path: Path) -> bool:
-    inside = path.is_relative_to(PACKAGE)
-    return inside and any(path.is_relative_to(PACKAGE / name) for name in OUTSIDE)
 
 
 def _imported(path: Path) -> list[Path]:
