@@ -12,7 +12,7 @@ HEAD = """\
 # Where it is right, and where it says no
 
 Made by `python -m tests.stability --out FOLDER --docs`. Every scene is run at the edges of what it
-allows, cheaply, and held to a closed form or a limit ([tests/stability](../tests/stability)): a
+allows, cheaply, and held to a closed form or a limit (`tests/stability`): a
 point is *right* if it is within five standard errors and a tolerance, *warned* if the result comes
 with a remark, *refused* if a sentence says what to change, and WRONG otherwise, or if its error is
 so large that it tells nothing. {count} points took {cpu:.0f} s of one core: {summary}.

@@ -204,7 +204,7 @@ def walls() -> list[Point]:
     equal = Point(
         *("type II walls", "T = 1, L = 2"),
         flow(1.0, 0.0, 2.0, wall="bgk", layers=4),
-        {"n_particles": 1000, "duration": 60.0},
+        {"n_particles": 1000, "duration": 60.0, "steps_per_record": 2},
         lambda result: [truths.at_rest(result, "temperature", 1.0, 5e-3)],
     )
     gravity = [
