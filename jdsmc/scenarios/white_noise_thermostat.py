@@ -42,7 +42,12 @@ class WhiteNoiseThermostat(AbstractHomogeneous):
 
     gas: AbstractGas
     noise: Any = number(
-        "strength ξ² of the noise", "v0²/τ0", low=0.0, low_included=False, example=0.2
+        "strength ξ² of the noise",
+        "v0²/τ0",
+        low=0.0,
+        low_included=False,
+        high_included=False,
+        example=0.2,
     )
 
     def step(

@@ -66,13 +66,13 @@ def test_steady_temperature_and_a2():
     assert abs(value["temperature"] - 2.0 * steady) < 4.5 * error["temperature"]
 
 
-@pytest.mark.parametrize("gas", [InelasticHardSpheres(0.8), InelasticHardDisks(0.8)])
+@pytest.mark.parametrize("gas", [InelasticHardSpheres(0.9), InelasticHardDisks(0.9)])
 def test_what_is_known_of_the_approach(gas):
-    """1/(1-α²) collisions for spheres and disks alike, however strong the noise; farther if hot."""
+    """d/3(1-α²) collisions, (3/2) ζ(T_s) in time, however strong the noise; farther if hot."""
     sizes = options(256, 0.1)
     strong, weak = (WhiteNoiseThermostat(gas, noise).approach(sizes) for noise in (1e4, 1e-4))
     for found in (strong, weak):
-        assert found.collisions == pytest.approx(1.0 / (1.0 - 0.8**2), rel=1e-3)
+        assert found.collisions == pytest.approx(gas.dimension / 3.0 / (1.0 - 0.9**2), rel=1e-3)
         assert found.certain
     assert strong.distance == 0.0 and weak.distance > 3.0
 
