@@ -5,7 +5,6 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
-from scipy.stats import t as student
 
 from . import check
 
@@ -137,6 +136,8 @@ class Estimate:
         Student's t with `degrees_of_freedom`. Raises ValueError unless 0 < level < 1.
         """
         check.scalar("level", level, 0.0, 1.0, high_included=False)
+        from scipy.stats import t as student  # noqa: PLC0415 - slow to import
+
         reach = student.ppf(0.5 + 0.5 * level, self.degrees_of_freedom) * self.error
         return self.value - reach, self.value + reach
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from scipy.stats import t as student
+from scipy.special import stdtr
 
 
 def jackknife(
@@ -97,7 +97,7 @@ def drift_significance(early: np.ndarray, late: np.ndarray, axis: int = -1) -> n
     spread = np.std(difference, axis=axis, ddof=1) / np.sqrt(count)
     with np.errstate(divide="ignore", invalid="ignore"):
         score = np.abs(np.mean(difference, axis=axis)) / spread
-    return np.asarray(2.0 * student.sf(np.where(spread > 0, score, 0.0), count - 1))
+    return np.asarray(2.0 * stdtr(count - 1, -np.where(spread > 0, score, 0.0)))
 
 
 def variogram_ratio(blocks: np.ndarray) -> float:

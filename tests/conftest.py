@@ -11,6 +11,9 @@ import tempfile
 
 from jaxtyping import install_import_hook
 
+# Tests leave nothing in the user's folders.
+os.environ.setdefault("JDSMC_COMPILATION_CACHE", "off")
+
 _SPEC = importlib.util.find_spec("jdsmc")
 assert _SPEC is not None
 _CHECKED = [

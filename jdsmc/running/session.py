@@ -10,6 +10,7 @@ from ..errors import FaultError
 from ..scenarios.options import Options
 from ..stats import BLOCKS
 from . import faults
+from .compiled import keep_programs
 from .engine import Engine
 from .estimates import printed_estimates, realization_estimates, steady_changes
 from .history import History
@@ -41,6 +42,7 @@ class Session:
         self.options, self.limits, self.request = options, limits, request
         sampler = None if request is None else request.sampler
         self.samples = None if sampler is None else Samples(sampler)
+        keep_programs()
         self.engine = (
             Engine(scenes, n_realizations, seed, options, sampler)
             if scenes[0].traced

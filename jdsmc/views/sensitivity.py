@@ -7,7 +7,6 @@ import xarray as xr
 
 from ..estimate import format_estimate
 from . import common
-from .figure import Picture
 from .page import Block, Page
 
 MOST = 6
@@ -85,6 +84,8 @@ def draw(found):
         return _against(data, dims[0], names[:MOST], found.parameters)
     if dims:
         raise ValueError("a picture shows a sweep of one number; choose a part: result.at(...).")
+    from .figure import Picture  # noqa: PLC0415 - slow to import
+
     figure = Picture(figsize=(1.5 + 3.5 * len(found.parameters), 1.3 + 0.3 * len(names)))
     panels = figure.subplots(1, len(found.parameters), sharey=True, squeeze=False)[0]
     rows = np.arange(len(names))[::-1]
@@ -107,6 +108,8 @@ def _against(data: xr.Dataset, dim: str, names: list[str], parameters):
     shown = shown[: 2 * MOST] or [(names[0], parameters[0])]
     columns = min(3, len(shown))
     lines = -(-len(shown) // columns)
+    from .figure import Picture  # noqa: PLC0415 - slow to import
+
     figure = Picture(figsize=(3.6 * columns, 2.7 * lines))
     panels = figure.subplots(lines, columns, squeeze=False).ravel()
     for panel, (name, parameter) in zip(panels, shown, strict=False):
