@@ -30,7 +30,7 @@ copyright = f"2026, {author}"  # the name that Sphinx asks for
 release = jdsmc.__version__
 
 extensions = ["myst_parser"]
-exclude_patterns = ["made/parts"]
+exclude_patterns = ["made/parts", "*.template.md"]
 source_suffix = {".md": "markdown"}
 myst_enable_extensions = ["colon_fence", "dollarmath"]
 myst_heading_anchors = 3
