@@ -25,7 +25,7 @@ def thin_layers(cold_temperature, gravity, length, *, jump: bool) -> int:
     if any(values.dtype.kind != "f" or not np.all(np.isfinite(values)) for values in slab):
         return FEWEST  # refused with its name when the scene checks its fields
     cold, gravity, length = np.broadcast_arrays(*np.ix_(*slab))
-    length = np.clip(length, 1e-6, None)
+    length, gravity = np.clip(length, 1e-6, 1e3), np.clip(gravity, -1.0, 1.0)
     wanted = length * densest(np.clip(cold, 1e-6, 1.0), gravity, length, jump) / WIDEST
     return FEWEST + int(np.ceil(np.max(wanted, initial=1.0)))
 

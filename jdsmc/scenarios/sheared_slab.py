@@ -119,7 +119,8 @@ class ShearedSlab(AbstractSlab):
         if self.layers is None:
             lengths = np.ravel(check.physical(self.length))
             known = lengths.dtype.kind == "f" and np.all(np.isfinite(lengths))  # else refused soon
-            self.layers = max(FEWEST, int(np.ceil(np.max(lengths) / WIDEST)) if known else 0)
+            longest = min(float(np.max(lengths, initial=0.0)), 1e3) if known else 0.0
+            self.layers = max(FEWEST, int(np.ceil(longest / WIDEST)))
 
     def __check_init__(self):
         if isinstance(self.gas, ElasticHardSpheres) and self.gas.drag == "measured":

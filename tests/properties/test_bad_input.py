@@ -7,6 +7,7 @@ violates them comes no farther.
 import contextlib
 import io
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -16,7 +17,14 @@ import jdsmc
 from jdsmc.cli import main
 from jdsmc.cli.arguments import Arguments
 from jdsmc.fields import given as fields
-from jdsmc.scenarios import SCENES, HomogeneousCooling, UniformShear
+from jdsmc.scenarios import (
+    SCENES,
+    CouetteFlow,
+    FourierFlow,
+    HomogeneousCooling,
+    ShearedSlab,
+    UniformShear,
+)
 
 from .effort import cases
 from .numbers import ANYTHING, fields_of, within
@@ -81,6 +89,16 @@ def test_scenes(drawn):
         pass
     except (ValueError, TypeError, jdsmc.NotSteadyError) as error:
         assert is_sentence(error), f"{type(error).__name__}: {error}"
+
+
+@pytest.mark.parametrize("length", [[], 1e308, np.inf, -1e308, np.nan])
+@pytest.mark.parametrize("make", [ShearedSlab, FourierFlow, CouetteFlow])
+def test_sizes_that_follow_from_bad_numbers(make, length):
+    """The number of layers that follows from a length hides no sentence about the length."""
+    facts = {"cold_temperature": 0.5, "shear_rate": 1.0, "wall_velocity": 0.1}
+    needed = {field.name for field in fields(make)} & set(facts)
+    with pytest.raises(ValueError, match="length"):
+        make(jdsmc.InelasticHardSpheres(1.0), length=length, **{n: facts[n] for n in needed})
 
 
 SAFE = {
