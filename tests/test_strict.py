@@ -76,7 +76,7 @@ def outcome(x64: bool, run: bool) -> str:
         text=True,
         check=False,
     )
-    assert "tried 19" in done.stdout, done.stderr
+    assert "tried 21" in done.stdout, done.stderr
     assert "FAILED" not in done.stdout, done.stdout + done.stderr
     return done.stdout
 

@@ -197,7 +197,8 @@ def test_cooling_beyond_the_range_of_floats(tmp_path):
     scene = HomogeneousCooling(InelasticHardSpheres([0.3, 0.9]))
     result = jdsmc.run(scene, n_particles=64, collisions=1200.0, progress=False, seed=6)
     last = result.series.isel(sample=-1)
-    assert np.all(last["collisions"] > 1190)
+    # the series ends with the realization that is least far in time: some percent of 1200 earlier
+    assert np.all(last["collisions"] > 1150)
     assert np.all(np.isfinite(result.series["log_time"]))
     assert np.all(np.diff(result.series["log_time"]) > 0)
     assert last["log_temperature"][0] < -745 and last["temperature"][0] == 0
