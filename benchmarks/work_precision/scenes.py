@@ -119,7 +119,7 @@ SCENES = (
     Studied(
         "fourier",
         _fourier,
-        ("mean_heat_flux", "conductivity"),
+        ("mean_heat_flux",),
         {"duration": 600.0},
         {
             "time_step": (0.0125, 0.025, 0.05),

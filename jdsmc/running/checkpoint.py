@@ -27,9 +27,6 @@ EVERY = 300.0
 SHARE = 0.01
 """Largest share of a run that is spent on writing."""
 
-MOST_OBJECTS = 100_000
-"""Arrays of a checkpoint: those of derivatives are many."""
-
 KIND, SCHEMA = "jdsmc checkpoint", 1
 
 
@@ -71,7 +68,10 @@ class Keeper:
         return time.monotonic() - self._last >= max(self._every, self._took / SHARE)
 
     def keep(self, session: Session, stopped: str) -> None:
-        """Write what the session has come to; every process of a run must call this."""
+        """Write what the session has come to; every process of a run must call this.
+
+        Warns if the file cannot be written.
+        """
         began, state = time.monotonic(), plain(session)
         if not hosts.is_first():
             return
@@ -80,13 +80,21 @@ class Keeper:
 
         content = io.BytesIO()  # over a disk that fills HDF5 would crash the program
         with h5py.File(content, "w") as file:
-            file.attrs.update({"kind": KIND, "schema": SCHEMA, "run": json.dumps(said)})
+            file.attrs.update({"kind": KIND, "schema": SCHEMA})
+            tree.put_text(file, "run", json.dumps(said))
             tree.write(file.create_group("state"), state)
 
         def fill(path: Path) -> None:
             path.write_bytes(content.getbuffer())
 
-        seal.write(self.path, fill, overwrite=True, previous=previous(self.path))
+        try:
+            seal.write(self.path, fill, overwrite=True, previous=previous(self.path))
+        except OSError as error:  # a full disk, a folder that is gone: no reason to end a run
+            warnings.warn(
+                f"{self.path} could not be written ({error}); the run goes on, and it is tried "
+                "again.",
+                stacklevel=4,
+            )
         self._last = time.monotonic()
         self._took = self._last - began
 
@@ -144,7 +152,7 @@ def told(path: Path) -> dict[str, Any]:
     if not seal.is_whole(path):
         raise ValueError(f"{path} was changed after it was written, or the disk failed.{hint}")
     with h5py.File(path, "r") as file:
-        look.structure(file, most_objects=MOST_OBJECTS)
+        look.structure(file)
         if file.attrs.get("kind") != KIND:
             raise ValueError(f"{path} is no checkpoint, but what `run` returned: it holds no gas.")
         if file.attrs["schema"] != SCHEMA:
@@ -152,7 +160,7 @@ def told(path: Path) -> dict[str, Any]:
                 f"{path} has schema {file.attrs['schema']}; this version of jdsmc goes on with "
                 f"{SCHEMA} only. Go on with the version that wrote it."
             )
-        return json.loads(str(file.attrs["run"]))
+        return json.loads(tree.get_text(file, "run"))
 
 
 def read(path: Path, classes: tuple[type, ...] = ()) -> Kept:

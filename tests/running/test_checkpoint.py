@@ -191,7 +191,18 @@ def test_the_file_is_plain_hdf5(tmp_path):
     path = tmp_path / "run.h5"
     jdsmc.run(SHEAR, collisions=4.0, checkpoint=path, **SMALL)
     with h5py.File(path) as file:
-        arrays = list(file["state"].values())
-        assert len(arrays) > 20
-        assert all(one.fletcher32 for one in arrays if one.size)
-        assert all(one.dtype.kind in "fiub" for one in arrays)
+        parts = [file["run"], *file["state"].values()]
+        assert len(parts) > 4
+        assert all(one.fletcher32 and one.dtype.kind in "fiub" for one in parts)
+
+
+def test_a_disk_that_is_full_ends_no_run(tmp_path, monkeypatch):
+    """The run warns and goes on."""
+
+    def full(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(seal, "write", full)
+    with pytest.warns(UserWarning, match="No space left.*goes on"):
+        result = jdsmc.run(SHEAR, collisions=4.0, checkpoint=tmp_path / "run.h5", **SMALL)
+    assert result.attrs["stopped"] == "the asked time was simulated"
