@@ -82,5 +82,5 @@ def at_least(name, value, low) -> None:
 
 def one_of(name, value, choices):
     """Raise unless `value` is one of the named choices."""
-    if value not in choices:
+    if not isinstance(value, str) or value not in choices:
         raise ValueError(f"{name} = {value!r} is unknown; choose one of {', '.join(choices)}.")

@@ -44,13 +44,15 @@ def chosen_paths(scene: AbstractScene, wrt) -> dict[str, str]:
     """Paths of the numbers asked for, by their short names.
 
     Arguments: the scene of one point; names, one name, or True for every number.
-    Raises ValueError for what is no single physical number.
+    Raises ValueError for what is no single physical number, TypeError for what is no name.
     """
     known = {short: path for path, short in sweep.labels(scene).items()}
     single = {n: p for n, p in known.items() if not sweep.facts(scene, p).get("axes", 0)}
     if wrt is True:
         return single
-    names = (wrt,) if isinstance(wrt, str) else tuple(wrt)
+    names = (wrt,) if isinstance(wrt, str) else wrt
+    if not isinstance(names, tuple | list) or not all(isinstance(name, str) for name in names):
+        raise TypeError(f"wrt = {wrt!r} is neither True nor a name or a tuple of names.")
     words = {path.split(".")[-1]: value for path, value in sweep.statics(scene).items()}
     for name in names:
         if name in single:

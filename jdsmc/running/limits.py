@@ -35,7 +35,7 @@ class Limits:
         if duration is not None and collisions is not None:
             raise ValueError("give duration or collisions, not both.")
         for name, value in (("duration", duration), ("collisions", collisions), ("budget", budget)):
-            if value is not None:
+            if value is not None or name == "budget":
                 check.scalar(name, value, 0.0, np.inf, high_included=False)
         self.duration, self.collisions, self.records = duration, collisions, records
         self.budget = float(budget)
@@ -107,7 +107,9 @@ def _names(scene: AbstractScene, observable) -> tuple[str, ...]:
     known = [one.name for one in scene.reports]
     if observable is None:
         return scene.ends or (known[0],)
-    names = (observable,) if isinstance(observable, str) else tuple(observable)
+    names = (observable,) if isinstance(observable, str) else observable
+    if not isinstance(names, tuple | list) or not names:
+        raise TypeError(f"observable = {observable!r} is neither a name nor a tuple of names.")
     for name in names:
         check.one_of("observable", name, known)
-    return names
+    return tuple(names)

@@ -10,6 +10,9 @@ from jdsmc.fields import given
 FARTHEST = 100.0
 """Where a range has no end."""
 
+SMALLEST = 1e-9
+"""Nearest to zero but zero: beyond, float32 has nothing of it beside one, and ratios overflow."""
+
 
 def within(facts: dict):
     """Numbers of a range: its ends where they belong to it, near them, and any between."""
@@ -17,6 +20,7 @@ def within(facts: dict):
     high = min(facts["high"], FARTHEST)
     ends = [low] * facts["low_included"] + [high] * facts["high_included"]
     inside = st.floats(low, high, exclude_min=not facts["low_included"], exclude_max=True)
+    inside = inside.filter(lambda value: value == 0.0 or abs(value) >= SMALLEST)
     small = st.floats(-6.0, 0.0).map(lambda power: low + (high - low) * 10.0**power)
     return st.one_of(inside, small, *([st.sampled_from(ends)] if ends else []))
 
