@@ -25,11 +25,11 @@ CASES = {
     "shear, N = 20000": (UniformShear(GAS, 4.0), {"collisions": 300.0}),
     "shear, 8 points, derivatives": (
         UniformShear(InelasticHardSpheres(np.linspace(0.5, 0.9, 8)), 4.0),
-        {"n_particles": 5120, "collisions": 100.0, "sensitivity": ("restitution",)},
+        {"n_particles": 1024, "collisions": 40.0, "sensitivity": ("restitution",)},
     ),
     "sheared slab, N = 5000": (
         ShearedSlab(GAS, 4.0, 2.5),
-        {"n_particles": 5000, "collisions": 40.0},
+        {"n_particles": 5000, "collisions": 20.0},
     ),
 }
 REPEATS = 3
