@@ -4,6 +4,9 @@ import jax
 import jax.core
 import numpy as np
 
+MOST = 2**31
+"""Larger sizes fit no array here."""
+
 
 def physical(value):
     """Turn a number, list or array into a float64 NumPy array; leave JAX values (traced) alone.
@@ -78,6 +81,12 @@ def counted(value):
 def at_least(name, value, low) -> None:
     """Raise unless `value` is an integer (bool excluded) of at least `low`."""
     whole(name, value, low)
+
+
+def size(name, value, low) -> None:
+    """The same, and that no array is too large for it."""
+    if whole(name, value, low) >= MOST:
+        raise ValueError(f"{name} = {value} is outside the allowed range [{low}, 2^31).")
 
 
 def one_of(name, value, choices):

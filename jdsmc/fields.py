@@ -111,7 +111,7 @@ def check_fields(module: eqx.Module) -> None:
         if "choices" in facts:
             check.one_of(field.name, value, facts["choices"])
         elif "least" in facts:
-            check.at_least(field.name, value, facts["least"])
+            check.size(field.name, value, facts["least"])
         elif "range" in facts and facts["names"] and isinstance(value, str):
             check.one_of(field.name, value, (*facts["names"], "a number"))
         elif "range" in facts:

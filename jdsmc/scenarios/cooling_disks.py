@@ -73,7 +73,7 @@ class CoolingDisks(AbstractCoolingDisks):
     )
 
     def __check_init__(self):
-        check.scalar("real_per_cell", self.real_per_cell, 0.0, math.inf, high_included=False)
+        check.scalar("real_per_cell", self.real_per_cell, 1e-6, math.inf, high_included=False)
 
     def fit_options(self, options: Options) -> Options:
         """Raise ValueError for an unstable system; warn if cells hold few fictive particles."""

@@ -83,7 +83,7 @@ class FourierFlow(AbstractWalled):
     def __post_init__(self):
         if self.layers is None:
             slab = self.cold_temperature, self.gravity, self.length
-            self.layers = thin_layers(*slab, jump=self.wall == "maxwell")
+            self.layers = thin_layers(*slab, jump=str(self.wall) == "maxwell")
 
     def __check_init__(self):
         check_gas(self.gas)

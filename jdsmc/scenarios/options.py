@@ -78,7 +78,7 @@ def checked_dtype(dtype) -> jnp.dtype:
     """float32 or float64, given by name or as a type; the latter needs JAX's x64 mode."""
     try:
         name = np.dtype(dtype).name
-    except TypeError:
+    except (TypeError, ValueError):
         name = dtype
     check.one_of("dtype", name, ("float32", "float64"))
     if name == "float64" and not jax.config.read("jax_enable_x64"):

@@ -99,7 +99,7 @@ def test_scenes(drawn):
     "option",
     [
         *({"observable": 0.0}, {"observable": ()}, {"budget": None}, {"sensitivity": 0.0}),
-        *({"splitting": np.zeros(2)}, {"dtype": np.zeros(2)}),
+        *({"splitting": np.zeros(2)}, {"dtype": np.zeros(2)}, {"dtype": (np.int8(0), 0.0)}),
     ],
     ids=str,
 )

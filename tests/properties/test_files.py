@@ -27,13 +27,13 @@ ATTRIBUTES = st.one_of(
 
 
 @st.composite
-def datasets(draw, attrs):
+def datasets(draw, group, attrs):
     """Arrays of any kind and shape, along axes of their own."""
     found = {}
     for name in draw(st.lists(NAMES, max_size=3, unique=True)):
         shape = draw(SIZES)
         values = draw(st.one_of(arrays.arrays(draw(KINDS), shape), labels(shape)))
-        axes = tuple(f"{name}_axis_{k}" for k in range(len(shape)))
+        axes = tuple(f"{group}_{name}_axis_{k}" for k in range(len(shape)))
         described = draw(st.dictionaries(st.sampled_from(["long_name", "symbol"]), TEXTS))
         found[name] = (axes, values, described)
     return xr.Dataset(found, attrs=attrs)
@@ -52,9 +52,9 @@ def trees(draw):
     """A result of any content."""
     attrs = draw(st.dictionaries(NAMES, ATTRIBUTES, max_size=5))
     attrs |= {"jdsmc_version": "0.1.0", "swept": ""}
-    groups = {"/": draw(datasets(attrs))}
+    groups = {"/": draw(datasets("root", attrs))}
     for name in draw(st.sets(st.sampled_from(["series", "distribution", "left_out"]))):
-        groups[f"/{name}"] = draw(datasets({}))
+        groups[f"/{name}"] = draw(datasets(name, {}))
     return xr.DataTree.from_dict(groups)
 
 
