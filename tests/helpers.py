@@ -91,6 +91,22 @@ def sums(velocity):
     return v.mean(axis=1), 0.5 * np.mean(np.sum(v**2, axis=0))
 
 
+def differences(one: jdsmc.Result, other: jdsmc.Result, besides: tuple[str, ...] = ()) -> list:
+    """Groups in which two results differ in a bit, attributes included but for those `besides`."""
+    trees = [result.to_xarray() for result in (one, other)]
+    names = sorted({"/"}.union(*(tree.children for tree in trees)))
+    found = []
+    for name in names:
+        if name != "/" and not all(name in tree.children for tree in trees):
+            found.append(name)
+            continue
+        parts = [tree[name].to_dataset() for tree in trees]
+        for part in parts:
+            part.attrs = {n: x for n, x in part.attrs.items() if n not in besides}
+        found += [] if parts[0].identical(parts[1]) else [name]
+    return found
+
+
 def f32(x):
     """A number as the step sees it."""
     return jnp.asarray(x, jnp.float32)

@@ -62,6 +62,11 @@ def _fourier(layers=None, **_):
 
 STEPS = (0.0125, 0.025, 0.05, 0.1, 0.2)
 SPLITTING = ("strang", "lie")
+HOMOGENEOUS = {
+    "time_step": STEPS,
+    "n_particles": (640, 1280, 2560, 5120, 20000),
+    "steps_per_record": (4, 8, 16, 32),
+}
 
 SCENES = (
     Studied(
@@ -69,12 +74,7 @@ SCENES = (
         lambda **_: UniformShear(GAS, 4.0),
         ("shear_stress", "temperature", "a2"),
         {"collisions": 400.0},
-        {
-            "time_step": STEPS,
-            "n_particles": (640, 1280, 2560, 5120, 20000),
-            "splitting": SPLITTING,
-            "steps_per_record": (4, 8, 16, 32),
-        },
+        HOMOGENEOUS | {"splitting": SPLITTING},
         reference={"time_step": 0.0125, "n_particles": 20000},
     ),
     Studied(
@@ -82,11 +82,7 @@ SCENES = (
         lambda **_: HomogeneousCooling(InelasticHardSpheres(0.5)),
         ("a2",),
         {"collisions": 400.0},
-        {
-            "time_step": STEPS,
-            "n_particles": (640, 1280, 2560, 5120, 20000),
-            "steps_per_record": (4, 8, 16, 32),
-        },
+        HOMOGENEOUS,
         truth={"a2": boltzmann.navier_stokes(0.5).a2},
     ),
     Studied(

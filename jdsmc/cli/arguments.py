@@ -7,7 +7,7 @@ from typing import Any, NoReturn
 
 from .. import sweep
 from ..scenarios.base import AbstractScene
-from .catalogue import GASES, Gas, did_you_mean, find_gases, first_line, scenes
+from .catalogue import GASES, Gas, did_you_mean, find_class, find_gases, first_line, scenes
 from .options import UNSET, Option, options_of, run_options
 from .spelling import symbols
 
@@ -26,6 +26,30 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         raise ValueError(f"{message}.")
+
+
+def add_files(parser: Parser) -> None:
+    """The files that a command which ends in a result writes."""
+    files = parser.add_argument_group("files")
+    files.add_argument("--out", metavar="FILE", help="file to write (HDF5); must not exist")
+    files.add_argument("--plot", metavar="FILE", help="picture to write (PNG, PDF or SVG)")
+
+
+def add_classes(parser: Parser) -> None:
+    """Scenes and gases of the user's own that a file was made with: see `classes_of`."""
+    parser.add_argument(
+        "--class",
+        dest="classes",
+        metavar="module:Class",
+        action="append",
+        default=[],
+        help="a scene or gas of your own that the file was made with",
+    )
+
+
+def classes_of(known: argparse.Namespace) -> tuple[type, ...]:
+    """Those classes, imported because the user names them."""
+    return tuple(find_class(name) for name in known.classes)
 
 
 @dataclass(frozen=True)
@@ -144,9 +168,7 @@ class Arguments:
         run = parser.add_argument_group("run")
         add(run, self.of_run)
         run.add_argument("--no-progress", action="store_true", help="show no progress bar")
-        files = parser.add_argument_group("files")
-        files.add_argument("--out", metavar="FILE", help="file to write (HDF5); must not exist")
-        files.add_argument("--plot", metavar="FILE", help="picture to write (PNG, PDF or SVG)")
+        add_files(parser)
         return parser
 
     def add_gases(self, group) -> None:

@@ -2,8 +2,7 @@
 
 from ..results.result import load
 from ..running.merge import merge as merged
-from .arguments import Parser
-from .catalogue import find_class
+from .arguments import Parser, add_classes, add_files, classes_of
 from .keep import check_files, keep
 
 
@@ -15,16 +14,8 @@ def parser() -> Parser:
         "other values of one number as one sweep.",
     )
     made.add_argument("files", metavar="FILE", nargs="+", help="result files, as --out writes them")
-    made.add_argument("--out", metavar="FILE", help="result file to write (HDF5)")
-    made.add_argument("--plot", metavar="PICTURE", help="picture to write (PNG, PDF or SVG)")
-    made.add_argument(
-        "--class",
-        dest="classes",
-        metavar="module:Class",
-        action="append",
-        default=[],
-        help="a scene or gas of your own that the runs were made with",
-    )
+    add_classes(made)
+    add_files(made)
     return made
 
 
@@ -35,6 +26,5 @@ def merge(words: list[str]) -> int:
         return 0
     asked = parser().parse_args(words)
     check_files(asked.out, asked.plot)
-    classes = tuple(find_class(name) for name in asked.classes)
-    result = merged([load(file) for file in asked.files], classes)
+    result = merged([load(file) for file in asked.files], classes_of(asked))
     return keep({"": result}, asked.out, asked.plot, join=False, spare="jdsmc-merged")

@@ -8,8 +8,7 @@ from ..errors import FaultError
 from ..running import checkpoint
 from ..running.checkpoint import EVERY
 from ..running.resume import resume as go_on
-from .arguments import Parser
-from .catalogue import find_class
+from .arguments import Parser, add_classes, add_files, classes_of
 from .keep import check_files, keep
 from .numbers import one_number
 
@@ -35,16 +34,8 @@ def parser() -> Parser:
     made.add_argument(
         "--every", metavar="NUMBER", default=f"{EVERY:g}", help="seconds between two checkpoints"
     )
-    made.add_argument(
-        "--class",
-        dest="classes",
-        metavar="module:Class",
-        action="append",
-        default=[],
-        help="a scene or gas of your own that the run was made with",
-    )
-    made.add_argument("--out", metavar="FILE", help="result file to write (HDF5)")
-    made.add_argument("--plot", metavar="PICTURE", help="picture to write (PNG, PDF or SVG)")
+    add_classes(made)
+    add_files(made)
     made.add_argument("--no-progress", action="store_true", help="show no progress bar")
     return made
 
@@ -59,7 +50,6 @@ def resume(words: list[str]) -> int:
     given = {name: getattr(asked, name) for name in LIMITS}
     limits = {name: one_number(name, text) for name, text in given.items() if text is not None}
     observable = tuple(asked.observable.split(",")) if asked.observable else None
-    classes = tuple(find_class(name) for name in asked.classes)
     path = Path(asked.file)
     if checkpoint.told(path)["chosen"]["dtype"] == "float64":
         jax.config.update("jax_enable_x64", True)
@@ -69,7 +59,7 @@ def resume(words: list[str]) -> int:
             path,
             **limits,
             **{"observable": observable, "every": one_number("every", asked.every)},
-            **{"progress": not asked.no_progress, "classes": classes},
+            **{"progress": not asked.no_progress, "classes": classes_of(asked)},
         )
     except FaultError as error:
         result = error.result

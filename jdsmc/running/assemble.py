@@ -150,10 +150,8 @@ def _steady(scene, labels, session, settled, attrs: dict) -> tuple[dict, dict]:
     for p, one in enumerate(averages):
         if one is not None:
             check_leading_axes(history.scenes[p], one[0])
-    sums, dims = (
-        _each([one and one[0] for one in averages]),
-        {one.name: one for one in scene.reports},
-    )
+    sums = _each([one and one[0] for one in averages])
+    dims = {one.name: one for one in scene.reports}
     groups["/realizations"] = labels.dataset(
         {name: x for name, x in sums.items() if not np.iscomplexobj(x)},
         [dims[n]._replace(meaning=n) for n in sums if n in dims],

@@ -76,8 +76,7 @@ class Keeper:
         if not hosts.is_first():
             return
         said = self._told | {"limits": session.limits.given, "stopped": stopped}
-        said |= {"made_by": made_by(), "spent": session.spent}
-
+        said["made_by"] = made_by()
         content = io.BytesIO()  # over a disk that fills HDF5 would crash the program
         with h5py.File(content, "w") as file:
             file.attrs.update({"kind": KIND, "schema": SCHEMA})

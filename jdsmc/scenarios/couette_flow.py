@@ -12,7 +12,7 @@ import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 
-from ..fields import count, number
+from ..fields import number
 from ..gases import AbstractGas
 from ..measure import couette
 from ..measure.observable import Observable
@@ -32,6 +32,8 @@ from .walled import (
     WalledRecord,
     WalledState,
     conducting,
+    distance_of_walls,
+    layers_between_walls,
 )
 
 
@@ -89,12 +91,8 @@ class CouetteFlow(AbstractWalled):
     gravity: Any = number(
         "gravity g, positive towards the lower wall", "v0²/λ0", low=-1.0, high=1.0, default=0.0
     )
-    length: Any = number(
-        "distance L of the walls", "λ0", low=0.0, high=1000.0, low_included=False, default=10.0
-    )
-    layers: int = count(
-        "layers across the slab, as many as its gas needs if not said", default=None
-    )
+    length: Any = distance_of_walls()
+    layers: int = layers_between_walls()
 
     def __post_init__(self):
         if self.layers is None:

@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Literal
 import jax.numpy as jnp
 import numpy as np
 
-from ..fields import choice, count, number
+from ..fields import choice, number
 from ..gases import AbstractGas, ElasticHardSpheres
 from ..gases.base import check_gas, conserves_energy, power_law, speed_exponent
 from ..measure import conduction
@@ -30,6 +30,8 @@ from .walled import (
     WalledRecord,
     WalledState,
     conducting,
+    distance_of_walls,
+    layers_between_walls,
 )
 
 TOO_WIDE = 0.005
@@ -68,17 +70,13 @@ class FourierFlow(AbstractWalled):
     gravity: Any = number(
         "gravity g, positive towards the cold wall", "v0²/λ0", low=-1.0, high=1.0, default=0.0
     )
-    length: Any = number(
-        "distance L of the walls", "λ0", low=0.0, high=1000.0, low_included=False, default=10.0
-    )
+    length: Any = distance_of_walls()
     wall: Literal["maxwell", "bgk"] = choice(
         "what the walls emit: a Maxwellian (type I), or the BGK gas that conducts heat (type II)",
         ("maxwell", "bgk"),
         default="maxwell",
     )
-    layers: int = count(
-        "layers across the slab, as many as its gas needs if not said", default=None
-    )
+    layers: int = layers_between_walls()
 
     def __post_init__(self):
         if self.layers is None:

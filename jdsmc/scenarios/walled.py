@@ -13,6 +13,7 @@ from jax import lax
 from .. import random
 from ..collisions.bound import next_bound
 from ..collisions.meet import Collisions
+from ..fields import count, number
 from ..motion.cells import populations, totals
 from ..motion.flight import Exchange, fly
 from ..motion.walls import Walls
@@ -70,6 +71,18 @@ def conducting(
     place = share * (3.0 + 3.0 * rise + rise**2) / (3.0 + 3.0 * excess + excess**2)
     temperature = cold_temperature * (1.0 + rise) ** 2
     return place * length, maxwellian_at(random.fold_in(key, 1), INITIAL_TEMPERATURE * temperature)
+
+
+def distance_of_walls() -> Any:
+    """The field of L."""
+    return number(
+        "distance L of the walls", "λ0", low=0.0, high=1000.0, low_included=False, default=10.0
+    )
+
+
+def layers_between_walls() -> Any:
+    """The field of the number of layers; None until the scene is made."""
+    return count("layers across the slab, as many as its gas needs if not said", default=None)
 
 
 class AbstractWalled(AbstractSlab):

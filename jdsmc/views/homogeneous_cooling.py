@@ -1,5 +1,7 @@
 """Freely cooling gases: Haff's law and the first Sonine approximation where they hold."""
 
+from collections.abc import Callable
+
 import numpy as np
 import xarray as xr
 
@@ -77,18 +79,12 @@ def draw(result):
 
 def _temperature(panel, result, dimension: int) -> None:
     """From the second record on: the first is at time zero, which has no logarithm."""
-    series, dims = result.series.isel(sample=slice(1, None)), common.dimensions(result)
-    for number, point in enumerate(common.some_points(series, dims)):
-        here = series.isel(point)
-        time, value, error = (
-            here[key].values for key in ("time", "temperature", "temperature_error")
-        )
-        style = {"color": f"C{number}", "lw": 3, "alpha": 0.5}
-        pictures.curve(panel, time, value, error, common.label(series, point), **style)
-        if dimension:
-            alpha = common.parameter(result, here, "restitution")
-            law = theory.haff_temperature(time, alpha, dimension=dimension)
-            panel.plot(time, law, "k:", lw=1.2, label=None if number else "Haff's law")
+
+    def law(time, alpha):
+        return theory.haff_temperature(time, alpha, dimension=dimension)
+
+    series = result.series.isel(sample=slice(1, None))
+    _curves(panel, result, series, "time", "temperature", law if dimension else None)
     panel.set(xscale="log", xlabel="time t (τ0)", ylabel="temperature T/T0")
     if np.nanmin(series["temperature"].values) < 0.5:
         panel.set_yscale("log")
@@ -96,20 +92,26 @@ def _temperature(panel, result, dimension: int) -> None:
 
 def _logarithms(panel, result, dimension: int) -> None:
     """The same in logarithms, for a gas that has cooled beyond the range of floats."""
-    series, dims = result.series, common.dimensions(result)
-    for number, point in enumerate(common.some_points(series, dims)):
+
+    def law(log_time, alpha):
+        half = np.log(theory.cooling_rate(alpha, dimension=dimension) / 2)
+        return -2 * np.logaddexp(0.0, half + log_time)  # t and 1 + t: the same where it matters
+
+    names = "log_time", "log_temperature"
+    _curves(panel, result, result.series, *names, law if dimension else None)
+    panel.set(xlabel="ln(1 + t/τ0)", ylabel="ln T/T0")
+
+
+def _curves(panel, result, series, clock: str, name: str, law: Callable | None) -> None:
+    """A band a point of the sweep, with Haff's law (of clock and restitution) if there is one."""
+    for number, point in enumerate(common.some_points(series, common.dimensions(result))):
         here = series.isel(point)
-        time, value, error = (
-            here[key].values for key in ("log_time", "log_temperature", "log_temperature_error")
-        )
+        time, value, error = (here[key].values for key in (clock, name, f"{name}_error"))
         style = {"color": f"C{number}", "lw": 3, "alpha": 0.5}
         pictures.curve(panel, time, value, error, common.label(series, point), **style)
-        if dimension:
-            alpha = common.parameter(result, here, "restitution")
-            half = np.log(theory.cooling_rate(alpha, dimension=dimension) / 2)
-            law = -2 * np.logaddexp(0.0, half + time)  # t and 1 + t are the same where it matters
-            panel.plot(time, law, "k:", lw=1.2, label=None if number else "Haff's law")
-    panel.set(xlabel="ln(1 + t/τ0)", ylabel="ln T/T0")
+        if law is not None:
+            haff = law(time, common.parameter(result, here, "restitution"))
+            panel.plot(time, haff, "k:", lw=1.2, label=None if number else "Haff's law")
 
 
 def _cumulants(panel, result, dims, x: str, dimension: int) -> None:
