@@ -80,7 +80,7 @@ class Arguments:
         self.gases = find_gases(text, [gas.name for gas in offered])
         self.known = {gas.name: gas for gas in (*offered, *self.gases)}
         taken = RESERVED | {option.flag for option in self.of_scene}
-        particles = "(default: what the scene needs, mostly 20000)"
+        particles = "(default: what the scene needs, mostly 5120)"
         self.of_run = run_options(taken, scene.default_rtol, particles)
         taken |= {option.flag for option in self.of_run}
         self.of_gases = {

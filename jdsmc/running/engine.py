@@ -22,7 +22,7 @@ from ..scenarios.options import Options
 from . import hosts
 from .batch import cores, gathered
 
-TOGETHER = 20_000
+TOGETHER = 20_480
 """Particles of a homogeneous gas that a CPU advances at once: with fewer, starting each operation
 costs more than the operation."""
 

@@ -51,7 +51,7 @@ def run(
         scene: a scene, ours or your own; one-dimensional arrays among its numbers are swept (their
             product, in one compiled program).
         n_particles: particles of one realization, at least 64, in a homogeneous gas a number with
-            a divisor from 64 to 1024; by default what the scene says, mostly 20000.
+            a divisor from 64 to 1024; by default what the scene says, mostly 5120.
         n_realizations: independent realizations, at least 8; all error bars come from them.
         seed: of all random numbers; the same seed gives the same result.
         duration: time to simulate (τ0).

@@ -126,6 +126,10 @@ class NavierStokes(AbstractScene):
         steps = ceil(SPARE * self.duration / step) + 1
         return replace(options, plan=plan, time_step=step, steps=steps, records=1)
 
+    def default_particles(self) -> int:
+        """So many that a kick is seen against the noise of one copy."""
+        return 20_000
+
     def approach(self, options: Options) -> Approach:
         """None: what is sampled has relaxed before the first kick."""
         return Approach(0.0)
