@@ -199,8 +199,11 @@ def _least_freedom(run, inputs, shape: tuple[int, ...]):
 
 
 def format_estimate(value: float, error: float) -> str:
-    """Value with its error in units of the last digits, e.g. 0.3325(4)."""
-    if not np.isfinite(error) or error <= 0:
+    """Value with its error in units of the last digits, e.g. 0.3325(4).
+
+    An error below 1e-6 of the value is one of rounding, of what is conserved: it is not shown.
+    """
+    if not np.isfinite(error) or error <= 1e-6 * abs(value):
         return f"{value:.6g}"
     digits = max(0, 1 - int(np.floor(np.log10(error))))
     shown = round(error * 10**digits)
