@@ -101,7 +101,10 @@ COLUMNS = ("scene", "seed", "observable", "value", "error", "low", "high")
 def run(case: Case, seed: int):
     """A cheap one; or the true one."""
     length: dict[str, Any] = case.longer if seed == TRUTH_SEED else {"rtol": case.rtol}
-    return jdsmc.run(case.make(), seed=seed, progress=False, **(case.sizes or {}), **length)
+    result = jdsmc.run(case.make(), seed=seed, progress=False, **(case.sizes or {}), **length)
+    if result.attrs["stopped"].startswith("interrupted"):
+        raise KeyboardInterrupt
+    return result
 
 
 def rows_of(name: str, case: Case, seed: int) -> list[dict]:

@@ -1,6 +1,7 @@
 """What is shipped: one version, everything that is needed, no link that leads nowhere."""
 
 import email
+import importlib
 import re
 import subprocess
 import sys
@@ -29,6 +30,18 @@ def test_one_version(capsys):
     assert main(["--version"]) == 0 and capsys.readouterr().out == f"jdsmc {version}\n"
     assert f"\nversion: {version}\n" in (ROOT / "CITATION.cff").read_text()
     assert re.findall(r"^## (\S+)", (ROOT / "CHANGELOG.md").read_text(), re.M)[0] == version
+
+
+def test_every_public_name_follows_from_one_import(monkeypatch):
+    """`import jdsmc` and dots lead to all that the reference describes, in a fresh process."""
+    monkeypatch.syspath_prepend(ROOT / "docs")
+    described = importlib.import_module("public_names")
+    names = [name for part in described.PARTS.values() for name in part.things]
+    names += [f"jdsmc.theory.{name}" for name in described.THEORY]
+    assert len(names) > 40
+    words = ["-c", f"import jdsmc\nfor name in {names}: eval(name)"]
+    done = subprocess.run([sys.executable, *words], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
 
 
 def test_the_gpu_gets_the_same_jax():
