@@ -1,8 +1,7 @@
 """Costantini and Puglisi, "Fluctuating hydrodynamics for dilute granular gases: a Monte Carlo
 study", PRE 82, 011305 (2010): figures 1 to 7 and what the text states.
 
-Run it with `python -m experiments.cooling_fluctuations`; README.md tells how the files divide the
-work.
+Run it with `python -m experiments.cooling_fluctuations`; README.md tells what is in which file.
 """
 
 from . import claims, figures, tables

@@ -30,7 +30,8 @@ def cases(size) -> list[Case]:
         name = case_name("dynamics", alpha, number)
         found.append(Case(name, scene, _options(size, number, duration)))
     for alpha, number, duration in size.monte_carlo:
-        scene = CoolingDisks(InelasticHardDisks(alpha), density=size.density, **size.cells)
+        cells = size.fine if alpha < 0.85 else size.cells
+        scene = CoolingDisks(InelasticHardDisks(alpha), density=size.density, **cells)
         name = case_name("monte_carlo", alpha, number)
         found.append(Case(name, scene, _options(size, number, duration)))
     return found
