@@ -1,13 +1,14 @@
 """`jdsmc resume`: go on with a run that a checkpoint keeps."""
 
 from pathlib import Path
+from typing import Any
 
 import jax
 
 from ..errors import FaultError
 from ..running import checkpoint
 from ..running.checkpoint import EVERY
-from ..running.resume import resume as go_on
+from ..running.resume import from_file
 from .arguments import Parser, add_classes, add_files, classes_of
 from .keep import check_files, keep
 from .numbers import one_number
@@ -48,19 +49,19 @@ def resume(words: list[str]) -> int:
     asked = parser().parse_args(words)
     check_files(asked.out, asked.plot)
     given = {name: getattr(asked, name) for name in LIMITS}
-    limits = {name: one_number(name, text) for name, text in given.items() if text is not None}
-    observable = tuple(asked.observable.split(",")) if asked.observable else None
+    limits: dict[str, Any] = {
+        name: one_number(name, text) for name, text in given.items() if text is not None
+    }
+    if asked.observable:
+        limits["observable"] = tuple(asked.observable.split(","))
     path = Path(asked.file)
-    if checkpoint.told(path)["chosen"]["dtype"] == "float64":
+    every = one_number("every", asked.every)
+    kept = checkpoint.read(path, classes_of(asked))
+    if kept.chosen["dtype"] == "float64":
         jax.config.update("jax_enable_x64", True)
     result = None
     try:
-        result = go_on(
-            path,
-            **limits,
-            **{"observable": observable, "every": one_number("every", asked.every)},
-            **{"progress": not asked.no_progress, "classes": classes_of(asked)},
-        )
+        result = from_file(path, kept, limits, not asked.no_progress, every)
     except FaultError as error:
         result = error.result
         raise

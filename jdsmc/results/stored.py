@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ..files import look, seal
+from ..files.readable import check_readable
 from ..files.writable import check_writable
 
 SCHEMA = 1
@@ -33,12 +34,11 @@ def read(path: str | Path) -> xr.DataTree:
     """The tree of a file, if it is to be trusted, as it was written.
 
     The seal shows what changed since; it is no signature, and does not tell who wrote a file.
-    Raises FileNotFoundError; ValueError for a file that was changed, is no result, is of another
-    schema, or would harm. Warns of a file without a seal, which was read in another process first.
+    Raises FileNotFoundError, PermissionError; ValueError for a file that was changed, is no result,
+    is of another schema, or would harm. Warns of a file without a seal, which was read in another
+    process first.
     """
-    path = Path(path)
-    if not path.is_file():
-        raise FileNotFoundError(f"there is no file {path}.")
+    path = check_readable(path)
     sealed = seal.is_sealed(path)
     if sealed and not seal.is_whole(path):
         raise ValueError(f"{path} was changed after it was written: its digest is another.")

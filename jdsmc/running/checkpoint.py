@@ -2,6 +2,7 @@
 
 import io
 import json
+import os
 import time
 import warnings
 from pathlib import Path
@@ -14,6 +15,7 @@ import numpy as np
 from .. import check
 from ..files import look, seal, tree
 from ..files.lock import Lock
+from ..files.readable import check_readable
 from ..files.writable import check_writable
 from ..results.rebuild import rebuilt
 from ..scenarios.base import AbstractScene
@@ -42,12 +44,12 @@ class Keeper:
     def __init__(self, path: str | Path, every, scene: AbstractScene, chosen: dict, *, new: bool):
         check.scalar("every", every, 0.0, np.inf, high_included=False)
         self.path = Path(path)
+        check_writable(self.path, overwrite=True)
         if new and hosts.is_first() and self.path.exists():
             raise FileExistsError(
                 f"{path} exists; go on with it by jdsmc.resume({str(path)!r}), or choose another "
                 "name."
             )
-        check_writable(self.path, overwrite=True)
         self._every = float(every)
         self._told = {"scene": specification(scene), "chosen": specification(chosen)}
         json.dumps(self._told)  # what cannot be written is refused before the run
@@ -139,13 +141,12 @@ def made_by() -> dict[str, Any]:
 def told(path: Path) -> dict[str, Any]:
     """What a file says of its run: scene, arguments, limits, how it ended, what made it.
 
-    Raises FileNotFoundError, and ValueError for a file that is no checkpoint, or was changed or
-    cut.
+    Raises FileNotFoundError, PermissionError; ValueError for a file that is no checkpoint, or was
+    changed or cut.
     """
     before = previous(path)
-    hint = f" The one before it is {before}." if before.is_file() else ""
-    if not path.is_file():
-        raise FileNotFoundError(f"there is no file {path}.{hint}")
+    hint = f" The one before it is {before}." if os.path.isfile(before) else ""
+    check_readable(path, hint)
     if not seal.is_sealed(path):
         raise ValueError(f"{path} is no checkpoint of jdsmc, or was cut.{hint}")
     if not seal.is_whole(path):

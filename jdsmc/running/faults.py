@@ -7,7 +7,8 @@ from ..errors import FaultError
 from .batch import point_of
 
 TOLERATED = 1e-4
-"""Share of collisions that may be missed: a tenth of the best precision asked by default."""
+"""Share of collisions that may be missed: a tenth of the best precision asked by default. Less than
+one collision is none, so that this counts from 1e4 of them on."""
 
 
 def check_record(history, record) -> None:
@@ -28,7 +29,10 @@ def check_record(history, record) -> None:
 
 
 def check_collisions(history, record) -> None:
-    """Raise FaultError if collisions were lost, in the latest records or in all of the history."""
+    """Raise FaultError if collisions were lost, in the latest records or in all since the start.
+
+    Arguments: the history so far, without these records.
+    """
     accepted = np.sum(record.tally.accepted)
     overflow = np.sum(record.tally.overflow)
     if overflow > TOLERATED * accepted:
@@ -36,9 +40,9 @@ def check_collisions(history, record) -> None:
             f"{overflow:.0f} candidate pairs had no slot ({accepted:.0f} collisions were made); "
             "reduce time_step."
         )
-    total = history.total_accepted
-    excess = history.total_excess
-    if excess > TOLERATED * total and total > 1e4:
+    total = history.total_accepted + accepted
+    excess = history.total_excess + np.sum(record.tally.excess)
+    if excess > max(TOLERATED * total, 1.0):
         raise FaultError(
             f"Collision probabilities above one cost {excess:.1f} of {total:.0f} collisions: the "
             "fastest pairs outran the majorant; reduce time_step."

@@ -166,7 +166,7 @@ class History:
     @property
     def total_accepted(self) -> float:
         """Accepted collisions of all gases together."""
-        return float(np.sum(self._totals["collisions"])) * self.n_particles
+        return float(np.sum(self._totals["collisions"])) * self.n_particles if self.length else 0.0
 
     def mean_time(self) -> np.ndarray:
         """Time so far (τ0), (points,)."""

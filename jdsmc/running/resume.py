@@ -6,7 +6,7 @@ from typing import Any
 from ..derivatives.request import requested
 from ..results.result import Result
 from . import checkpoint
-from .checkpoint import EVERY, Keeper
+from .checkpoint import EVERY, Keeper, Kept
 from .going import INTERRUPTED, concluded, go_on
 from .limits import Limits
 from .run import options_of, scenes_of
@@ -46,7 +46,8 @@ def resume(
         name: x for name, x in {**limits, "rtol": rtol, "budget": budget}.items() if x is not None
     }
     if not isinstance(source, Result):
-        return from_file(Path(source), asked, progress, every, classes)
+        path = Path(source)
+        return from_file(path, checkpoint.read(path, classes), asked, progress, every)
     under_way = source.under_way
     if under_way is None:
         raise ValueError(
@@ -60,9 +61,8 @@ def resume(
     return go_on(scene, session, attrs, progress)
 
 
-def from_file(path: Path, asked: dict, progress: bool, every: float, classes) -> Result:
+def from_file(path: Path, kept: Kept, asked: dict, progress: bool, every: float) -> Result:
     """Go on with the run that a checkpoint keeps; `asked` are the limits that change."""
-    kept = checkpoint.read(path, classes)
     scene, chosen = kept.scene, kept.chosen
     points = scenes_of(scene)
     along = any(kept.limits[name] is not None for name in ("duration", "collisions"))

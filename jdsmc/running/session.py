@@ -99,10 +99,10 @@ class Session:
         """One chunk, its faults checked, and the steady state looked for."""
         record, sample = self.engine.advance()
         faults.check_record(self.history, record)
+        faults.check_collisions(self.history, record)
         if self.samples is not None:
             self.samples.extend(self.engine.watched, record.elapsed, self.history.length)
         self.history.append(record, sample)
-        faults.check_collisions(self.history, record)
         if self.history.length >= self._next_check:
             self._next_check = 1.5 * self.history.length
             self._look_for_trouble()

@@ -182,8 +182,9 @@ class HeatFluxForce(AbstractHomogeneous):
 
     def faults(self, record: HeatRecord) -> str:
         """A force that drives particles away."""
-        realization, number = np.unravel_index(np.nanargmax(record.runaway), record.runaway.shape)
-        if np.nanmax(record.runaway) < RUNAWAY:
+        share = np.nan_to_num(record.runaway, nan=0.0, posinf=np.inf)  # NaN is found elsewhere
+        realization, number = np.unravel_index(np.argmax(share), share.shape)
+        if np.max(share) < RUNAWAY:
             return ""
         step = float(np.min(record.step[:, number]))
         speed = 2 * RUNAWAY / self.field / step

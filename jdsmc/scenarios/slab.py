@@ -42,6 +42,12 @@ class SlabState(eqx.Module):
         return LARGEST_PROBABILITY / lax.stop_gradient(self.crowding)
 
 
+class SlabRecord(Record):
+    """A record of a gas in a slab, and how many particles were not in the slab at its start."""
+
+    outside: Scalar
+
+
 def maxwellian_at(key: Key, temperature: Positions) -> Velocities:
     """Maxwellian velocities of particles at places of given temperatures (m v0²)."""
     shape, dtype = temperature.shape, temperature.dtype
@@ -80,8 +86,9 @@ class AbstractSlab(AbstractScene):
     def wanted_step(self, moments: Any, options: Options) -> Scalar:
         """The time step (τ0) if no pair were too likely, from what was measured."""
 
-    def advance(self, key: Key, state: SlabState, options: Options) -> tuple[SlabState, Record]:
+    def advance(self, key: Key, state: SlabState, options: Options) -> tuple[SlabState, SlabRecord]:
         """One record: measure, choose the time step, then make `options.steps` of them."""
+        outside = self.outside(state.position)
         moments = self.measure(state)
         wanted = self.wanted_step(moments, options)
 
@@ -92,7 +99,8 @@ class AbstractSlab(AbstractScene):
 
         counts = jnp.arange(options.steps, dtype=jnp.uint32)
         state, (tally, durations) = lax.scan(one_step, state, counts)
-        return state, Record(moments, Collisions.over(tally), jnp.sum(durations))
+        elapsed = jnp.sum(durations)
+        return state, SlabRecord(moments, Collisions.over(tally), elapsed, outside)
 
     def step(
         self, key: Key, state: SlabState, duration: Scalar, options: Options
@@ -112,6 +120,14 @@ class AbstractSlab(AbstractScene):
             state = self.move(key, state, after * duration)
         return state, tally
 
+    def outside(self, position: Positions) -> Scalar:
+        """Number of particles that are not in the slab: `layer` takes them for those at its ends.
+
+        NaN is nowhere.
+        """
+        inside = (position >= 0.0) & (position <= self.length)
+        return jnp.sum((~inside).astype(position.dtype))
+
     def layer(self, position: Positions) -> Layer:
         """The layer of each particle."""
         return layer_of(position, self.length, self.layers)
@@ -122,6 +138,16 @@ class AbstractSlab(AbstractScene):
         """Collisions within the layers."""
         few = options.n_particles < CROWDED * self.layers
         return collide_in_layers(key, self.gas, layer, self.layers, velocity, duration, crowded=few)
+
+    def faults(self, record: SlabRecord) -> str:
+        """Particles that left the slab."""
+        lost = float(np.max(record.outside))
+        if lost == 0:
+            return ""
+        return (
+            f"Particles left the slab from 0 to {float(self.length):g} ({lost:.0f} of them); "
+            "`move` must bring every one back."
+        )
 
     def fit_options(self, options: Options) -> Options:
         """Raise ValueError for too few particles in a layer."""

@@ -19,9 +19,8 @@ from ..motion.flight import Exchange, fly
 from ..motion.walls import Walls
 from ..types import Key, Positions, Profile, Scalar, Velocities
 from ..units import INITIAL_TEMPERATURE
-from .base import Record
 from .options import Options
-from .slab import AbstractSlab, SlabState, maxwellian_at, uniform
+from .slab import AbstractSlab, SlabRecord, SlabState, maxwellian_at, uniform
 
 FAST = 4.0
 """Speed (v0) that must not carry a particle across the slab in one step."""
@@ -44,7 +43,7 @@ class Conduction(eqx.Module):
     height: Scalar
 
 
-class WalledRecord(Record):
+class WalledRecord(SlabRecord):
     """One record: sums averaged over its samples, collisions, its length, and wall exchange."""
 
     exchange: Exchange
@@ -135,6 +134,7 @@ class AbstractWalled(AbstractSlab):
         def one_sample(state, number):
             return self.sample(random.fold_in(key, number), state, options)
 
+        outside = self.outside(state.position)
         samples = jnp.arange(self.samples_per_record, dtype=jnp.uint32)
         start = replace(
             state, walls=self.same_walls(state.walls), exchange=Exchange.none(options.dtype)
@@ -142,7 +142,7 @@ class AbstractWalled(AbstractSlab):
         state, (moments, tally, elapsed) = lax.scan(one_sample, start, samples)
         moments = jax.tree.map(lambda x: jnp.mean(x, axis=0), moments)
         tally, elapsed = Collisions.over(tally), jnp.sum(elapsed)
-        return state, WalledRecord(moments, tally, elapsed, state.exchange)
+        return state, WalledRecord(moments, tally, elapsed, outside, state.exchange)
 
     def sample(self, key: Key, state: WalledState, options: Options):
         """Time steps, and what the layers hold after them.
@@ -198,10 +198,10 @@ class AbstractWalled(AbstractSlab):
         )
 
     def faults(self, record: WalledRecord) -> str:
-        """Particles that bounce on without end."""
+        """Particles that bounce on without end, beside those outside."""
         lost = float(np.sum(record.exchange.lost))
         if lost == 0:
-            return ""
+            return super().faults(record)
         return (
             f"{lost:.0f} particles hit a wall again and again within one step; reduce time_step, "
             "or gravity."
