@@ -44,9 +44,18 @@ def as_one_sweep(results: list[Result], path: str, classes: tuple[type, ...]) ->
         f"parameter_{name}": every[order],
         "swept": " ".join(dims),
         "stopped": "; ".join(stopped),
+        "seed": seeds_of(results),
         "run": name_of(results),
     }
     return Result(xr.DataTree.from_dict(groups))
+
+
+def seeds_of(results: list[Result]) -> Any:
+    """The seed of all runs, or all seeds of any of them: no other run of these may be added."""
+    first, *others = ([int(seed) for seed in np.atleast_1d(one.attrs["seed"])] for one in results)
+    if all(other == first for other in others):
+        return results[0].attrs["seed"]
+    return sorted({*first}.union(*others))
 
 
 def values_of(result: Result, path: str) -> np.ndarray:

@@ -48,7 +48,7 @@ class Table:
         with self.path.open("a", newline="") as file:
             csv.writer(file).writerow((fault, where, number, outcome))
         self._done.add((fault, where, number))
-        if self.say or not outcome.startswith(OUTCOMES[:2]):
+        if (self.say and number % 100 == 0) or not outcome.startswith(OUTCOMES[:2]):
             print(f"{fault}, {where}, {number}: {outcome}", flush=True)
 
     def add_seconds(self, seconds: float) -> float:

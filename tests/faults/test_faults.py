@@ -16,11 +16,11 @@ KINDS |= {"byte of a checkpoint flipped", "byte of a result flipped"}
 
 
 def test_nothing_is_lost_and_nothing_silent(tmp_path, monkeypatch):
-    """One fault of most kinds, a thousandth of the bytes; a second call repeats none."""
+    """One fault of most kinds, a part of the bytes; a second call repeats none."""
     monkeypatch.setattr(kills, "SCENES", {"shear": kills.SCENES["shear"]})
     monkeypatch.setattr(damage, "CUTS", 10)
     monkeypatch.setattr(device, "KINDS", DEVICE)
-    numbers = {"killed": 1, "ended": 0, "step": 1009, "times": 1}
+    numbers = {"killed": 1, "ended": 0, "step": 499, "times": 1}
     rows = campaign(Table(tmp_path), **numbers)
     assert {row["fault"] for row in rows} == KINDS
     assert all(row["outcome"].startswith(OUTCOMES[:2]) for row in rows), summary(rows)

@@ -26,7 +26,7 @@ from jdsmc.scenarios import (
     UniformShear,
 )
 
-from .effort import cases
+from .effort import cases, refused
 from .numbers import ANYTHING, fields_of, within
 
 GASES = (
@@ -92,6 +92,7 @@ def test_scenes(drawn):
     except (TypeCheckError, Begun):
         pass
     except (ValueError, TypeError, jdsmc.NotSteadyError) as error:
+        refused(error)
         assert is_sentence(error), f"{type(error).__name__}: {error}"
 
 
@@ -146,6 +147,7 @@ def test_options_of_a_run(steady, data):
     except (TypeCheckError, Begun):
         pass
     except (ValueError, TypeError, jdsmc.NotSteadyError) as error:
+        refused(error)
         assert is_sentence(error), f"{type(error).__name__}: {error}"
 
 
@@ -171,4 +173,5 @@ def test_command_line(command, options):
     said = io.StringIO()
     with contextlib.suppress(Begun), contextlib.redirect_stderr(said):
         assert main(words) in (1, 2)  # 1 for a budget that is too small
+        refused(ValueError(said.getvalue()))
         assert said.getvalue().startswith("jdsmc: ") and said.getvalue().count("\n") == 1
