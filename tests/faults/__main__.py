@@ -24,9 +24,9 @@ def campaign(table: Table, *, killed: int, ended: int, step: int, times: int) ->
     often each of the other faults is injected.
     """
     device.inject(table, times)
-    disk.inject(table, times, times // 2)
-    damage.inject(table, step)
     kills.inject(table, killed, ended)
+    damage.inject(table, step)
+    disk.inject(table, times, times // 4)
     return table.rows()
 
 

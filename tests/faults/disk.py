@@ -9,6 +9,7 @@ import time
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -64,6 +65,13 @@ class Place:
     def __init__(self, folder: Path):
         self.folder, self.kept = folder, folder / "run.h5"
         self.whole = jdsmc.run(SHEAR, **ALL, **OPTIONS)
+
+    @cached_property
+    def alone(self) -> jdsmc.Result:
+        """What a process gives that nobody disturbs."""
+        self.emptied()
+        jdsmc_process(f"{WORDS} --out alone.h5", self.folder).communicate()
+        return jdsmc.load(self.folder / "alone.h5")
 
     def emptied(self) -> None:
         """Begin anew."""
@@ -167,10 +175,8 @@ class Place:
 
     def two_runs_onto_one_checkpoint(self) -> str:
         """While a process writes, nobody else begins or goes on; its own result is right."""
+        alone = self.alone
         self.emptied()
-        (self.folder / "whole").mkdir()
-        process = jdsmc_process(f"{WORDS} --out whole/alone.h5", self.folder)
-        process.communicate()
         kept = f"{WORDS} --checkpoint run.h5 --every 1e-6 --out first.h5"
         process = jdsmc_process(kept, self.folder)
         while not self.kept.exists() and process.poll() is None:
@@ -188,8 +194,7 @@ class Place:
         process.communicate()
         if refused < 2 or not alive:
             return f"{SILENT}: {refused} refused of 2, the first {'' if alive else 'not '}alive"
-        one, other = (jdsmc.load(self.folder / n) for n in ("whole/alone.h5", "first.h5"))
-        wrong = differences(one, other, besides=("commit",))
+        wrong = differences(alone, jdsmc.load(self.folder / "first.h5"), besides=("commit",))
         return f"{SILENT}: {wrong} differ" if wrong else TOLD
 
     def two_runs_onto_one_result(self) -> str:
@@ -208,9 +213,8 @@ class Place:
     def process_on_a_full_disk(self, number: int) -> str:
         """A disk that fills at a random instant and stays full: the result cannot be saved, and is
         made from the checkpoint once there is room."""
+        alone = self.alone
         self.emptied()
-        process = jdsmc_process(f"{WORDS} --out alone.h5", self.folder)
-        process.communicate()
         kept = f"{WORDS} --checkpoint run.h5 --every 1e-6 --out result.h5"
         process = jdsmc_process(kept, self.folder)
         while not self.kept.exists() and process.poll() is None:
@@ -225,7 +229,6 @@ class Place:
         if left := [path.name for path in self.folder.glob("result*")]:
             return f"{LOST}: {left} left behind"
         again = jdsmc.resume(self.kept, progress=False).save(self.folder / "result.h5")
-        alone = jdsmc.load(self.folder / "alone.h5")
         wrong = differences(alone, jdsmc.load(again), besides=("commit",))
         return f"{SILENT}: {wrong} differ" if wrong else TOLD
 

@@ -150,7 +150,7 @@ def of(scene, name: str, otherwise):
     return vars(scene).get(name, otherwise)
 
 
-@cases(900, 24)
+@cases(2400, 24)
 @given(asked())
 def test_a_run(drawn):
     """Finite and conserving, or refused; and the same again, or refused again."""
@@ -165,7 +165,7 @@ def test_a_run(drawn):
     xr.testing.assert_identical(result.to_xarray(), again.to_xarray())
 
 
-@cases(250, 6)
+@cases(600, 6)
 @given(asked(), st.data())
 def test_a_point_of_a_sweep(drawn, data):
     """It is the run of that point alone, as far as both go; of the others, none matters."""
@@ -193,7 +193,7 @@ def folder(tmp_path_factory):
     return tmp_path_factory.mktemp("runs")
 
 
-@cases(150, 4)
+@cases(250, 4)
 @given(asked())
 def test_the_file_of_a_run(folder, drawn):
     """It has all of the result, and builds the scene again."""
@@ -208,7 +208,7 @@ def test_the_file_of_a_run(folder, drawn):
     assert str(loaded.scene()) == str(result.under_way.scene)
 
 
-@cases(150, 4)
+@cases(250, 4)
 @given(asked())
 def test_gone_on(drawn):
     """A first chunk that is gone on from gives the numbers of one run."""
