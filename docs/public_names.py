@@ -74,7 +74,7 @@ PARTS = {
     "transport": Part(
         "Transport coefficients",
         transport.__doc__ or "",
-        of(transport, "navier_stokes", "linear_response"),
+        of(transport, "navier_stokes", "resume", "linear_response"),
     ),
     "fit": Part("Calibration", fit.__doc__ or "", of(fit, *fit.__all__)),
     "own": Part(

@@ -7,11 +7,17 @@ followed while the disturbance dies: its time integral is the coefficient, for a
 Method and proofs: docs/impulse_response.md. Theory to compare with: `jdsmc.theory.transport`.
 """
 
+from pathlib import Path
+from typing import Any
+
 import xarray as xr
 
 from . import check
 from .results.result import Result
+from .running import checkpoint as checkpoints
+from .running.checkpoint import EVERY, Keeper
 from .running.limits import Limits
+from .running.resume import from_file
 from .running.run import options_of, run, scenes_of, simulate
 from .scenarios.cooling_response import CoolingResponse
 from .scenarios.navier_stokes import NavierStokes, duration_for, kick_for
@@ -32,6 +38,8 @@ def navier_stokes(
     time_step: float = 0.1,
     rtol: float | None = None,
     progress: bool = True,
+    checkpoint: str | Path | None = None,
+    every: float = EVERY,
 ) -> Result:
     """Thermal conductivities, the coefficient μ of the density gradient, and the viscosity.
 
@@ -52,6 +60,7 @@ def navier_stokes(
             0.079 and recorded each.
         rtol: stop once the standard errors of κ', κ and η are this share of them at every point.
         progress: show a progress bar.
+        checkpoint, every: as of `jdsmc.run`; `jdsmc.transport.resume` goes on.
     Returns:
         `Result` with `conductivity` κ/κ0, `modified_conductivity` κ'/κ0, `density_coefficient`
         nμ/(Tκ0), `viscosity` η/η0 and `a2` of the cooling state, each with an error. Reference
@@ -75,14 +84,48 @@ def navier_stokes(
     kicks = check.whole("n_kicks", kicks, 1)
     scene = NavierStokes(gas, strength, followed)
     scenes = scenes_of(scene)
-    options = options_of(scenes, particles, time_step, "strang", "float32", STEPS_PER_RECORD)
+    numerics = {"n_particles": particles, "time_step": time_step, "splitting": "strang"}
+    numerics |= {"dtype": "float32", "steps_per_record": STEPS_PER_RECORD}
+    options = options_of(scenes, **numerics)
     limits = Limits(scenes, options, rtol=rtol or 1e-9, budget=1e12, records=kicks)
+    chosen = numerics | {"n_realizations": n_realizations, "seed": seed, "sensitivity": False}
+    keeper = None if checkpoint is None else Keeper(checkpoint, every, scene, chosen, new=True)
     return with_lag_as_series(
         simulate(
             *(scene, scenes, options, limits),
             **{"n_realizations": n_realizations, "seed": seed, "progress": progress},
+            keeper=keeper,
         )
     )
+
+
+def resume(
+    path: str | Path,
+    *,
+    n_kicks: int | None = None,
+    rtol: float | None = None,
+    progress: bool = True,
+    every: float = EVERY,
+    classes: tuple[type, ...] = (),
+) -> Result:
+    """Go on with kicks that a checkpoint of `navier_stokes` keeps, to the bit.
+
+    Arguments: the file; kicks of every realization, counted from the first, and `rtol`, as of
+    `navier_stokes`: what is not given is as it was (kicks of the same strength); the rest as of
+    `jdsmc.resume`.
+    Raises ValueError for a file that keeps anything else, and what `jdsmc.resume` raises.
+    """
+    path = Path(path)
+    kept = checkpoints.read(path, classes)
+    if kept.limits["records"] is None:
+        raise ValueError(f"{path} keeps no kicks of navier_stokes; go on with it by jdsmc.resume.")
+    asked: dict[str, Any] = {}
+    if rtol is not None:
+        check.scalar("rtol", rtol, 0.0, 1.0)
+        asked = {"rtol": rtol, "records": MOST_KICKS}
+    if n_kicks is not None:
+        asked["records"] = check.whole("n_kicks", n_kicks, 1)
+    return with_lag_as_series(from_file(path, kept, asked, progress, every))
 
 
 def linear_response(gas, *, time_step: float = 0.1, **options) -> Result:

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import jdsmc
-from jdsmc import InelasticHardDisks, InelasticHardSpheres, scenarios
+from jdsmc import InelasticHardDisks, InelasticHardSpheres, scenarios, transport
 from jdsmc.files import seal
 from jdsmc.running import checkpoint
 from jdsmc.running.limits import Limits
@@ -81,6 +81,25 @@ def test_a_finished_run_goes_on_as_if_asked_at_once(tmp_path):
     assert "series" in differences(first, whole)  # else the lines below could not fail
     assert not differences(whole, jdsmc.resume(first, rtol=0.002, progress=False))
     assert not differences(whole, jdsmc.resume(path, rtol=0.002, progress=False))
+
+
+def test_kicks_go_on(tmp_path, killed):
+    """Those of `transport.navier_stokes`, killed after the second; then one more is asked for."""
+    kicks = {"n_particles": 256, "duration": 1.0, "progress": False}
+    gas, path = InelasticHardSpheres([0.7, 0.9]), tmp_path / "run.h5"
+    whole = transport.navier_stokes(gas, n_kicks=3, **kicks)
+    alive = killed(2)
+    with pytest.raises(Killed):
+        transport.navier_stokes(gas, n_kicks=3, checkpoint=path, every=1e-9, **kicks)
+    alive()
+    assert not differences(whole, transport.resume(path, progress=False))
+    more = transport.resume(path, n_kicks=4, progress=False)
+    assert more.attrs["n_records"] == 4
+    assert not differences(transport.navier_stokes(gas, n_kicks=4, **kicks), more)
+    other = tmp_path / "other.h5"
+    jdsmc.run(SHEAR, collisions=4.0, checkpoint=other, **SMALL)
+    with pytest.raises(ValueError, match="keeps no kicks"):
+        transport.resume(other)
 
 
 def test_what_failed_may_be_given_more(tmp_path):
