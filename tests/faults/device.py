@@ -220,15 +220,14 @@ def injected(kind: str, after: int, whole: jdsmc.Result, folder: Path) -> str:
 
 
 def begins(whole: jdsmc.Result, part: jdsmc.Result, records: int) -> bool:
-    """True if a series is the beginning of another, and holds all whole chunks of the records."""
-    one, other = whole.series, part.series
-    length = other.sizes["sample"]
-    enough = length >= IN_CHUNK * (records // IN_CHUNK) - 1  # clocks of realizations differ a bit
-    return enough and other.equals(one.isel(sample=slice(0, length)))
+    """True if a series is the beginning of another, and made of all whole chunks of the records."""
+    made = part.attrs["n_records"] == IN_CHUNK * (records // IN_CHUNK)
+    length = part.series.sizes["sample"]  # less than that: clocks of realizations differ
+    return made and part.series.equals(whole.series.isel(sample=slice(0, length)))
 
 
 def inject(table: Table, instants: int) -> None:
-    """Each kind after other numbers of records."""
+    """Each kind after other numbers of records, from the second chunk to the last but one."""
     with same_random_numbers():
         _inject(table, instants)
 
@@ -239,7 +238,8 @@ def _inject(table: Table, instants: int) -> None:
     for kind, (setting, _) in KINDS.items():
         whole = wholes[id(setting)]
         for number in range(instants):
-            after = IN_CHUNK + 3 + 5 * number
+            last = whole.attrs["n_records"] - 2 * IN_CHUNK
+            after = IN_CHUNK + 3 + (last - IN_CHUNK) * number // instants
             table.note(
                 kind,
                 type(setting[0]).__bases__[0].__name__,
