@@ -10,14 +10,15 @@ from hypothesis import HealthCheck, Phase, event, settings
 FULL = os.environ.get("PROPERTIES") == "full"
 
 COUNTS: dict[str, Counter] = {}
-"""By property: cases that were tried and held, and how many of them ended in a refusal."""
+"""By property: cases that were tried and held, and refusals on the way."""
 
 PAGE = """\
 # Properties searched
 
 Made by `python -m tests.properties --page FILE`; do not edit. Random gases, scenes, options,
-command lines, files and merges (`tests/properties`). Refused: with one sentence, as bad input must
-be. A run has 64 particles, eight realizations and a few chunks. The page is written only if every
+command lines, files and merges (`tests/properties`). Refusals: runs, scenes, options and merges on
+the way that were refused, each with one sentence, as bad input must be (a case may make two runs).
+A run has 64 particles, eight realizations and a few chunks. The page is written only if every
 property held in every case.
 
 """
@@ -65,7 +66,7 @@ def refused(error: Exception) -> None:
 def page(seconds: float) -> str:
     """A table of the properties, and what the search took."""
     found = {name: count for name, count in COUNTS.items() if name != "now"}
-    lines = ["| property | cases | of them refused |", "|---|---|---|"]
+    lines = ["| property | cases | refusals |", "|---|---|---|"]
     for name, count in found.items():
         lines.append(f"| {name} | {count['held']} | {count['refused']} |")
     total = Counter()
