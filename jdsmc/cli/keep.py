@@ -80,7 +80,10 @@ def keep(
 def save(result: Result, path: Path) -> bool:
     """Write a result, under another name if that one cannot be written; True if all names fail."""
     problem: Exception | None = None
+    full: set[Path] = set()  # folders where no other name will do
     for other in (path, *spare_paths(path)):
+        if other.parent.resolve() in full:
+            continue
         try:
             result.save(other)
         except FileExistsError as error:
@@ -88,6 +91,7 @@ def save(result: Result, path: Path) -> bool:
             continue
         except Exception as error:  # a full disk, a folder that is gone, data that HDF5 refuses
             problem = problem or error
+            full.add(other.parent.resolve())
             continue
         if problem is not None:
             complain(f"{path} could not be written, saved as {other} instead", problem)

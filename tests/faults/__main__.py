@@ -9,7 +9,6 @@ lost or silent.
 
 import argparse
 import os
-import resource
 import sys
 from pathlib import Path
 
@@ -46,16 +45,9 @@ def main() -> int:
     table = Table(given.folder, say=True)
     rows = campaign(table, **numbers, times=given.times)
     print(summary(rows))
-    seconds = table.add_seconds(cpu_seconds())
     if given.out is not None:
-        given.out.write_text(page(rows, seconds), encoding="utf-8")
+        given.out.write_text(page(rows), encoding="utf-8")
     return int(any(not row["outcome"].startswith(OUTCOMES[:2]) for row in rows))
-
-
-def cpu_seconds() -> float:
-    """CPU time of this process, and of those that it started."""
-    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
-    return sum(one.ru_utime + one.ru_stime for one in used)
 
 
 if __name__ == "__main__":

@@ -51,13 +51,6 @@ class Table:
         if (self.say and number % 100 == 0) or not outcome.startswith(OUTCOMES[:2]):
             print(f"{fault}, {where}, {number}: {outcome}", flush=True)
 
-    def add_seconds(self, seconds: float) -> float:
-        """CPU time of all calls together, this one's added."""
-        path = self.folder / "seconds"
-        total = seconds + (float(path.read_text()) if path.exists() else 0.0)
-        path.write_text(str(total))
-        return total
-
     def rows(self) -> list[dict]:
         """What was injected so far."""
         with self.path.open(newline="") as file:
@@ -81,10 +74,11 @@ def line(kind: str, rows: list[dict]) -> str:
     return f"| {kind} | {len(rows)} | " + " | ".join(map(str, counts)) + " |"
 
 
-def page(rows: list[dict], seconds: float) -> str:
-    """The table with what it means, and how long it took."""
+def page(rows: list[dict]) -> str:
+    """The table with what it means."""
     within = sum("within a write" in row["outcome"] for row in rows)
-    return (
-        f"{PAGE}{summary(rows)}\n\n{within} processes were ended while they wrote a checkpoint. "
-        f"All of it took {seconds / 60:.0f} minutes of CPU time.\n"
+    where = len({row["where"] for row in rows if row["fault"] == "SIGKILL"})
+    told = (
+        f"Processes of {where} scenes were ended, {within} of them while they wrote a checkpoint."
     )
+    return f"{PAGE}{summary(rows)}\n\n{told}\n"
