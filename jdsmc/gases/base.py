@@ -97,8 +97,8 @@ def check_share(gas: AbstractGas) -> None:
     share = gas.transfer_share()
     if share is not None and not local.transfers(gas, share):
         raise ValueError(
-            f"{type(gas).__name__}.transfer_share gives {float(share):g}, and its momentum_transfer "
-            "gives no such share of g - g'; return None for a gas that has none."
+            f"{type(gas).__name__}.transfer_share gives {float(share):g}, and momentum_transfer is "
+            "no such share of g - g'; return None for a gas that has none."
         )
 
 

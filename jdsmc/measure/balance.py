@@ -134,7 +134,7 @@ def second_moments(velocity: Velocity) -> list[Scalar]:
 # On the host, in float64.
 
 
-def balances(m, balance: Balance, elapsed: np.ndarray) -> dict[str, np.ndarray]:
+def balances(m, balance: Balance, elapsed) -> dict[str, np.ndarray]:
     """The eight numbers of every record: arrays (..., 8) from its moments before, and so on."""
     before = np.stack([np.asarray(x) for x in (m.xx, m.yy, m.zz, m.xy)], axis=-1)
     middle = 0.5 * (before + balance.after) + balance.path
@@ -165,9 +165,17 @@ def without_noise(means: dict[str, Any]) -> dict[str, Any]:
     enough = means["balance_records"] >= LEAST
     response = np.where(enough[..., None, None], spread[..., 4:, :], np.eye(4))
     # A = response spread⁻¹
-    off = spread[..., :4, :] @ np.linalg.solve(response, drift[..., None])
+    off = spread[..., :4, :] @ _solved(response, drift[..., None])
     steady = moment - off[..., 0]
     plain = np.stack([means[name] for name in NAMES], axis=-1)
     chosen = np.where(enough[..., None], steady, plain)
     seconds = {name: chosen[..., k] for k, name in enumerate(NAMES)}
     return rest | seconds | {"temperature": np.mean(chosen[..., :3], axis=-1)}
+
+
+def _solved(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """The solution; where a moment never changes (no collisions), the one that leaves it alone."""
+    try:
+        return np.linalg.solve(matrix, right)
+    except np.linalg.LinAlgError:
+        return np.linalg.pinv(matrix) @ right

@@ -10,17 +10,16 @@ import jdsmc
 from jdsmc import ElasticHardSpheres, InelasticHardSpheres, MaxwellMolecules, random
 from jdsmc.collisions.whole import collide
 from jdsmc.measure import balance
+from jdsmc.running.estimates import averages_to_print, estimates_of
 from jdsmc.scenarios import UniformShear
 
-from ..helpers import IsotropicMolecules, PlainSpheres, Viscoelastic, f32, keys, maxwellian, options
+from ..helpers import PlainSpheres, Viscoelastic, f32, keys, maxwellian, options
 
 OPTIONS = options(1024)
 GASES = [
     InelasticHardSpheres(0.5),
     ElasticHardSpheres(0.7, 0.85),
     MaxwellMolecules(),
-    IsotropicMolecules(2.0),
-    PlainSpheres(0.5),
     Viscoelastic(0.5),
 ]
 
@@ -36,24 +35,20 @@ def _sheared(key):
 def test_what_is_expected_of_the_pairs_is_right_in_the_mean(gas):
     """Whatever the state and the gas: within 4.5 errors, of 1% of the change of xx by collisions.
 
-    Of one record of two long steps: the second sees what the first left, the second wave in each
-    what the first wave left.
+    Of one long step, whose second wave sees what the first left.
     """
     gas = jax.tree.map(f32, gas)
 
     def one(key):
         velocity = _sheared(key)
         before = jnp.stack(balance.second_moments(velocity))
-        watch, noise = balance.noise_of(gas), 0.0
-        for number in (1, 2):
-            velocity, tally = collide(
-                *(random.fold_in(key, number), gas, OPTIONS.plan, velocity),
-                *(f32(10.0), f32(0.06), watch),
-            )
-            noise = noise + tally.watched / 1024
-        return noise, jnp.stack(balance.second_moments(velocity)) - before
+        velocity, tally = collide(
+            *(random.fold_in(key, 1), gas, OPTIONS.plan, velocity),
+            *(f32(10.0), f32(0.08), balance.noise_of(gas)),
+        )
+        return tally.watched / 1024, jnp.stack(balance.second_moments(velocity)) - before
 
-    noise, change = (np.asarray(x, float) for x in jax.jit(jax.vmap(one))(keys(3, 1500)))
+    noise, change = (np.asarray(x, float) for x in jax.jit(jax.vmap(one))(keys(3, 1000)))
     error = np.std(noise, axis=0, ddof=1) / np.sqrt(len(noise))
     assert np.all(error < 1e-2 * abs(np.mean(change[:, 0])))
     assert np.all(np.abs(np.mean(noise, axis=0)) < 4.5 * error)
@@ -75,7 +70,7 @@ def test_a_gas_mistaken_about_its_share_is_refused():
         def transfer_share(self):
             return 0.5
 
-    with pytest.raises(ValueError, match="transfer_share gives 0.5"):
+    with pytest.raises(ValueError, match=r"transfer_share gives 0\.5"):
         jdsmc.run(UniformShear(Mistaken(0.5), 1.0), collisions=1.0, progress=False)
 
 
@@ -96,6 +91,23 @@ def test_a_linear_drift_is_undone_exactly():
     assert found["temperature"] == pytest.approx(1.0, rel=1e-9)
 
 
+def test_collisions_early_in_a_record_count_for_longer():
+    """The mean over time of a jump in the middle of the first of n equal steps: 1 - 1/2n."""
+    noise = jnp.zeros((5, 4)).at[0].set(1.0)
+    one = balance.balance_of(noise, jnp.full(5, 0.3), (jnp.ones((1, 1)),) * 3)
+    np.testing.assert_allclose(one.path + 0.5 * one.noise, 1.0 - 0.1, rtol=1e-6)
+
+
+def test_moments_that_never_change_are_left_as_they_are():
+    """No collisions, no drift: nothing to fit, and no division by it."""
+    records = np.zeros((8, 10, 8))
+    records[..., :4] = np.arange(1.0, 5.0)
+    weights = np.ones((8, 10))
+    means = {"balance": np.mean(records, axis=1)} | balance.squares(records, weights)
+    found = balance.without_noise(means | dict.fromkeys(balance.NAMES, np.zeros(8)))
+    np.testing.assert_allclose(found["xy"], 4.0)
+
+
 class Plain(UniformShear):
     """The time averages as they are."""
 
@@ -103,17 +115,22 @@ class Plain(UniformShear):
 
 
 def test_less_noise_and_the_same_mean():
-    """Of -P_xy/nT, stresses and T: the same within 4.5 errors, printed variance less than half.
+    """Of one run, against its plain averages: the same within 4.5 errors, with a smaller one.
 
-    Seen with these sizes: a fifth for the stress, a third for T.
+    Seen: variances down 5 times for the stress, 2 to 3 times for T; they are known to 50% here.
     """
-    asked = {"n_particles": 1024, "collisions": 300.0, "seed": 5, "progress": False}
+    asked = {"n_particles": 1024, "collisions": 150.0, "seed": 5, "progress": False}
     gas = InelasticHardSpheres(0.7)
-    with_noise, without = (jdsmc.run(s(gas, 4.0), **asked) for s in (Plain, UniformShear))
-    for name, least in (("shear_stress", 2.0), ("temperature", 1.5), ("normal_stress_xy", 2.0)):
-        (plain, its), (value, error) = with_noise[name], without[name]
-        assert (its / error) ** 2 > least
-        assert abs(plain - value) < 4.5 * np.hypot(its, error)
+    result = jdsmc.run(UniformShear(gas, 4.0), **asked)
+    session = result.under_way.session
+    found = averages_to_print(session.history, 0, int(session.tracker.start[0]))
+    plain = ({n: x for n, x in one.items() if not n.startswith("balance")} for one in found)
+    value, error, _ = estimates_of(session.history.scenes[0], *plain)
+    for name, least in (("shear_stress", 2.0), ("temperature", 1.2), ("normal_stress_xy", 1.5)):
+        ours, its = result[name]
+        assert (error[name] / its) ** 2 > least
+        # the difference is the noise that was taken out: what the error of the plain value has
+        assert 0 < abs(ours - value[name]) < 4.5 * error[name]
 
 
 def test_a_scene_that_does_not_ask_pays_nothing():
