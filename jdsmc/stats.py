@@ -52,6 +52,11 @@ def _all_and_others(means: dict[Any, np.ndarray], axis: int) -> tuple[dict, dict
     return whole, others
 
 
+def averages_of_others(means: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Averages over all realizations but one, for each of them: arrays (realizations, ...)."""
+    return _all_and_others(means, 0)[1]
+
+
 def _means_of_others(values: np.ndarray, axis: int) -> np.ndarray:
     """For each element along an axis, moved to the front, the mean of all others.
 

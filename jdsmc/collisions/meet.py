@@ -47,14 +47,16 @@ class Collisions(eqx.Module):
 class Candidates(eqx.Module):
     """What a watch sees: candidate pairs before their collisions, and what became of them.
 
-    `left`, `right`: velocity components; `probability` of a collision; `accepted`; `transfer`, the
-    momentum that the left one gave away (zero where there was no collision). Arrays of one shape.
+    `left`, `right`: velocity components; `probability` of a collision; `accepted`; `outgoing`, the
+    relative velocity after an elastic one; `transfer`, the momentum that the left one gave away
+    (zero where there was no collision). Arrays of one shape.
     """
 
     left: Particles
     right: Particles
     probability: Any
     accepted: Any
+    outgoing: Particles
     transfer: Particles
 
 
@@ -93,9 +95,8 @@ def meet(
         (transfer, accepted, probability, rate)
     )
     lost = sum(t * (a - b - t) for t, a, b in zip(transfer, left, right, strict=True))
-    watched = (
-        None if watch is None else watch(Candidates(left, right, probability, accepted, transfer))
-    )
+    met = Candidates(left, right, probability, accepted, outgoing, transfer)
+    watched = None if watch is None else watch(met)
     tally = Collisions(
         _total(accepted.astype(dtype)),
         _total(lost),

@@ -60,6 +60,13 @@ class AbstractGas(eqx.Module):
         `outgoing` is the relative velocity after an *elastic* collision of the same geometry.
         """
 
+    def transfer_share(self) -> Any:
+        """s of a gas that transfers s (g - g') whatever the pair, traced; None for any other.
+
+        A gas that knows it is simulated faster (see `measure.balance`).
+        """
+        return None
+
     # What follows is asked on the host, of one gas.
 
     def speed_exponent(self) -> float | None:
@@ -83,6 +90,16 @@ def check_gas(gas) -> None:
     """Raise TypeError for what is no gas."""
     if not isinstance(gas, AbstractGas):
         raise TypeError(f"gas must be a jdsmc gas, got {gas!r}.")
+
+
+def check_share(gas: AbstractGas) -> None:
+    """Raise ValueError for one gas whose `transfer_share` is not what it transfers."""
+    share = gas.transfer_share()
+    if share is not None and not local.transfers(gas, share):
+        raise ValueError(
+            f"{type(gas).__name__}.transfer_share gives {float(share):g}, and momentum_transfer is "
+            "no such share of g - g'; return None for a gas that has none."
+        )
 
 
 def speed_exponent(gas: AbstractGas) -> float | None:

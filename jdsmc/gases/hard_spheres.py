@@ -40,6 +40,9 @@ class InelasticHardSpheres(AbstractGas):
     def momentum_transfer(self, relative_velocity, outgoing):
         return normal_transfer(self.restitution, relative_velocity, outgoing)
 
+    def transfer_share(self):
+        return (1.0 + self.restitution) / 4.0
+
     def speed_exponent(self) -> float:
         return 1.0
 
@@ -128,6 +131,9 @@ class ElasticHardSpheres(AbstractGas):
 
     def momentum_transfer(self, relative_velocity, outgoing):
         return tuple(0.5 * (g - e) for g, e in zip(relative_velocity, outgoing, strict=True))
+
+    def transfer_share(self) -> float:
+        return 0.5
 
     def speed_exponent(self) -> float:
         return 1.0

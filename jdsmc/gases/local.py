@@ -98,6 +98,20 @@ def speed_exponent(gas) -> float | None:
     return float(np.round(np.mean(exponents), 5))
 
 
+def transfers(gas, share) -> bool:
+    """True if the transfer is `share` of g - g' for every pair, as far as float32 can tell."""
+    cosine = np.cos(np.array([0.3, 1.1, 2.0, 2.9]))
+    relative, transfer = _transfer(gas, PROBES, cosine)
+    across = PROBES[:, None] * np.sqrt(1.0 - cosine**2)
+    change = [
+        relative[0] - PROBES[:, None] * cosine,
+        -across,
+        *(0.0 * across for _ in transfer[2:]),
+    ]
+    off = [t - share * c for t, c in zip(transfer, change, strict=True)]
+    return bool(np.max(np.abs(off) / PROBES[:, None]) < 1e-5)
+
+
 def _transfer_shares(gas) -> np.ndarray:
     """Transfer over speed for a few directions, at every probed speed: (speeds, numbers)."""
     _, transfer = _transfer(gas, PROBES, np.cos(np.array([0.3, 1.1, 2.0, 2.9])))

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..errors import FaultError
 from ..scenarios.base import AbstractScene
-from ..stats import BLOCKS, jackknife, larger_errors
+from ..stats import BLOCKS, averages_of_others, jackknife, larger_errors
 from .history import History
 
 
@@ -41,12 +41,14 @@ def _complete(scene: AbstractScene, found: dict, wanted: list[str]) -> dict:
 def check_leading_axes(scene: AbstractScene, means: dict) -> None:
     """Raise FaultError for observables that give something else with a leading axis than without.
 
-    Error bars would be wrong. Arguments: averages of each realization, (realizations, ...).
+    Error bars would be wrong. Arguments: averages of each realization, (realizations, ...); looked
+    at are those of all but one, which errors are made of.
     """
     if not takes_leading_axes(scene):
         return
-    together = reported(scene, means)
-    alone = reported(scene, {name: array[0] for name, array in means.items()})
+    others = averages_of_others(means)
+    together = reported(scene, others)
+    alone = reported(scene, {name: array[0] for name, array in others.items()})
     for name, values in alone.items():
         shape = (len(next(iter(means.values()))), *values.shape)
         found = np.broadcast_to(together[name], shape)

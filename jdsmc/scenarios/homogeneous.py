@@ -13,6 +13,8 @@ from ..collisions.bound import FASTEST_PAIR
 from ..collisions.meet import Collisions
 from ..collisions.pairs import remix
 from ..collisions.whole import collide
+from ..gases.base import check_share
+from ..measure.balance import Balance, balance_of, balances, noise_of, squares, without_noise
 from ..measure.moments import BIN_WIDTH, Distributions, bin_centres, distributions, moments
 from ..measure.observable import Observable
 from ..measure.observables import (
@@ -26,7 +28,7 @@ from ..measure.polynomials import Averages, Powers, Symmetry
 from ..motion.drive import centred, mean, temperature_of
 from ..types import Key, Scalar, Velocity
 from ..units import INITIAL_TEMPERATURE
-from .base import AbstractScene, Record
+from .base import AbstractScene, Record, weighted_means
 from .options import Options
 from .pace import make_steps
 
@@ -74,6 +76,12 @@ class HomogeneousRecord(Record):
     slowing: Float[Array, "2"]
 
 
+class BalancedRecord(HomogeneousRecord):
+    """A record that knows the noise of its collisions."""
+
+    balance: Balance
+
+
 def homogeneous_observables(*names: str) -> tuple[Observable, ...]:
     """What every homogeneous gas reports, the named ones first."""
     known = {one.name: one for one in (TEMPERATURE, *REDUCED)}
@@ -89,6 +97,9 @@ class AbstractHomogeneous(AbstractScene):
     sampled: ClassVar[tuple[Observable, ...]] = DISTRIBUTIONS
     symmetry: ClassVar[Symmetry | None] = None
     """That of the distribution, for derivatives; `moment_drift` goes with it."""
+    balanced: ClassVar[bool] = False
+    """True if the noise of collisions is taken out of steady second moments (`measure.balance`), in
+    three dimensions."""
 
     @abstractmethod
     def step(
@@ -102,7 +113,14 @@ class AbstractHomogeneous(AbstractScene):
 
     def collide(self, key, velocity, majorant, duration, options) -> tuple[Velocity, Collisions]:
         """The collision stage of a step."""
-        return collide(key, self.gas, options.rows, velocity, majorant, duration)
+        watch = noise_of(self.gas) if self.balanced else None
+        return collide(key, self.gas, options.rows, velocity, majorant, duration, watch)
+
+    def fit_options(self, options: Options) -> Options:
+        """As they are; ValueError for a gas that is mistaken about itself."""
+        if self.balanced:
+            check_share(self.gas)
+        return options
 
     def initial(self, key: Key, options: Options) -> HomogeneousState:
         """Maxwellian velocities with mean exactly zero and temperature exactly T0."""
@@ -117,16 +135,17 @@ class AbstractHomogeneous(AbstractScene):
 
         def step(key, velocity, majorant, duration):
             velocity, tally = self.step(key, velocity, majorant, duration, options)
-            return velocity, tally, None
+            return velocity, tally, (tally.watched, duration)
 
-        velocity, majorant, tally, elapsed, _ = make_steps(
+        velocity, majorant, tally, elapsed, (noise, durations) = make_steps(
             *(step, key, velocity, state.majorant),
             *(sampled.temperature(), self.rate(), options),
         )
-        whole = jnp.zeros_like(elapsed), jnp.ones(2, elapsed.dtype)
-        return HomogeneousState(velocity, majorant), HomogeneousRecord(
-            sampled, tally, elapsed, *whole
-        )
+        whole = sampled, tally, elapsed, jnp.zeros_like(elapsed), jnp.ones(2, elapsed.dtype)
+        state = HomogeneousState(velocity, majorant)
+        if noise is None:
+            return state, HomogeneousRecord(*whole)
+        return state, BalancedRecord(*whole, balance_of(noise, durations, velocity))
 
     def finish_chunk(self, state: HomogeneousState) -> tuple[HomogeneousState, Distributions]:
         """Sample the velocity distributions and deal the particles into new rows."""
@@ -147,10 +166,21 @@ class AbstractHomogeneous(AbstractScene):
 
     def averages(self, record: HomogeneousRecord) -> dict[str, np.ndarray]:
         """Averages over the particles at each record."""
-        return homogeneous_averages(self.gas, record.moments, record.slowing)
+        found = homogeneous_averages(self.gas, record.moments, record.slowing)
+        if isinstance(record, BalancedRecord):
+            found |= balances(record.moments, record.balance, record.elapsed)
+        return found
+
+    def window(self, series: dict, weights: np.ndarray) -> dict[str, np.ndarray]:
+        """Averages of each realization over a window, and what their balance is fitted to."""
+        means = weighted_means(series, weights)
+        if "balance" in series and self.has_steady_state():
+            means |= squares(series["balance"], weights)
+        return means
 
     def observables(self, means: dict) -> dict:
         """What every homogeneous gas has."""
+        means = without_noise(means)
         return isotropic(means, self.gas.dimension) | collisional(means)
 
     def sample_densities(self, sample: dict) -> dict:

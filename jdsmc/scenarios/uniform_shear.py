@@ -13,6 +13,7 @@ from ..collisions.meet import Collisions
 from ..fields import number
 from ..gases import AbstractGas, ElasticHardSpheres
 from ..gases.hard_spheres import loses_energy
+from ..measure.balance import without_noise
 from ..measure.moments import pair_cubed
 from ..measure.observable import Observable
 from ..measure.observables import PRESSURES, REDUCED, RHEOLOGY, TEMPERATURE, rheology
@@ -43,6 +44,7 @@ class UniformShear(AbstractHomogeneous):
         *(*PRESSURES, *REDUCED),
     )
     applies_drag: ClassVar[bool] = True
+    balanced: ClassVar[bool] = True
     symmetry: ClassVar[Symmetry | None] = SHEARED
     monitored: ClassVar[tuple[str, ...]] = ("temperature", "xy", "xx", "fourth")
 
@@ -104,5 +106,5 @@ class UniformShear(AbstractHomogeneous):
 
     def observables(self, means: dict) -> dict:
         """Stresses and the viscometric functions, beside what every homogeneous gas has."""
-        own = rheology(means, self.shear_rate, self.gas.speed_exponent())
+        own = rheology(without_noise(means), self.shear_rate, self.gas.speed_exponent())
         return super().observables(means) | own

@@ -121,6 +121,13 @@ def test_losses_of_a_viscoelastic_gas():
 SMALL = {"n_particles": 512, "time_step": 0.1, "steps_per_record": 8, "progress": False}
 
 
+class TellingSpheres(PlainSpheres):
+    """They say what share they transfer: the same operations as those of the built-in gas."""
+
+    def transfer_share(self):
+        return (1.0 + self.alpha) / 4.0
+
+
 def test_a_gas_with_a_field_of_its_own_gives_the_same_numbers(monkeypatch):
     """`alpha` instead of `restitution`: with the same keys all that is measured is the same.
 
@@ -129,7 +136,7 @@ def test_a_gas_with_a_field_of_its_own_gives_the_same_numbers(monkeypatch):
     monkeypatch.setattr(sweep, "fingerprint", lambda scene: (1, 2))
     own, ours = (
         jdsmc.run(UniformShear(gas, 4.0), collisions=20.0, **SMALL).series
-        for gas in (PlainSpheres(0.7), InelasticHardSpheres(0.7))
+        for gas in (TellingSpheres(0.7), InelasticHardSpheres(0.7))
     )
     assert set(own) == set(ours)
     for name in ours.data_vars:
