@@ -60,6 +60,14 @@ class AbstractGas(eqx.Module):
         `outgoing` is the relative velocity after an *elastic* collision of the same geometry.
         """
 
+    def isotropic_share(self) -> Any:
+        """c, if every transfer is c (g - e) with one c and e has any direction; None otherwise.
+
+        Averages over directions are then known in closed form (derivatives). For gases of three
+        velocity components.
+        """
+        return None
+
     # What follows is asked on the host, of one gas.
 
     def speed_exponent(self) -> float | None:

@@ -27,6 +27,9 @@ class MaxwellMolecules(AbstractGas):
     def momentum_transfer(self, relative_velocity, outgoing):
         return tuple(0.5 * (g - e) for g, e in zip(relative_velocity, outgoing, strict=True))
 
+    def isotropic_share(self) -> float:
+        return 0.5
+
     def speed_exponent(self) -> float:
         return 0.0
 
