@@ -19,7 +19,7 @@ from jdsmc.scenarios import UniformShear
 
 from .truth_sensitivity import OBSERVABLES, RESTITUTIONS, slopes
 
-SEEDS = range(200, 220)
+SEEDS = range(300, 320)
 SHEAR_RATE = 0.5
 """Near that of T_s = T0; reduced values do not depend on it."""
 

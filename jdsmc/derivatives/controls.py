@@ -17,6 +17,9 @@ from .sampling import Sampler
 BLOCKS_PER_CONTROL = 10
 """Fewer would fit noise: the error is understated by half of the inverse of this at most."""
 
+HIGHEST = 4
+"""Degree of the φ whose C are used: degree 6 gains nothing more."""
+
 SMALLEST = 1e-6
 """Scatter of a C relative to its terms below which it is rounding: the energy where the
 temperature is held. Momentum, of degree 1, is held always."""
@@ -38,14 +41,18 @@ def controlled(
     scatter = np.std(known, axis=(0, 1))
     size = np.std(means["source"][..., :-1], axis=(0, 1)) + 1e-300
     degrees = np.array([sampler.symmetry.degree(powers) for powers in sampler.basis])
-    kept = np.flatnonzero((scatter > SMALLEST * size) & (degrees > 1))[:most]
+    used = (degrees > 1) & (degrees <= HIGHEST)
+    kept = np.flatnonzero((scatter > SMALLEST * size) & used)[:most]
+    # a block with one very fast particle would decide slopes alone: it counts less
+    rare = np.mean((known / np.where(scatter > 0, scatter, 1.0)) ** 2, axis=-1)
     known = known[..., kept] / scatter[kept]
-    share = np.sqrt(weights / np.mean(weights))[..., None]
-    inverse = np.linalg.pinv((share * (known - _mean(known, weights))).reshape(weights.size, -1))
+    share = np.sqrt(weights / np.mean(weights) / np.maximum(1.0, rare) ** 2)[..., None]
+    own = share[..., 0] ** 2
+    inverse = np.linalg.pinv((share * (known - _mean(known, own))).reshape(weights.size, -1))
     found = {}
     for name, values in means.items():
         flat = values.reshape(*weights.shape, -1)
-        slopes = inverse @ (share * (flat - _mean(flat, weights))).reshape(weights.size, -1)
+        slopes = inverse @ (share * (flat - _mean(flat, own))).reshape(weights.size, -1)
         found[name] = (flat - known @ slopes).reshape(values.shape)
     return found
 

@@ -22,7 +22,7 @@ from ..types import Key, Scalar, Velocity
 from .after import after, both
 from .numbers import tangent
 
-PAIRINGS = 3
+PAIRINGS = 2
 """Partners of each particle in a sample: the noise is that of pairs much more than of particles."""
 
 
