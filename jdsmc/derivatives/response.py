@@ -77,12 +77,7 @@ class Generator:
 
     def drift(self, scene, moments: np.ndarray, cubed) -> np.ndarray:
         """d⟨φ_k⟩/dt of the trial functions by all but collisions: (trial, ...)."""
-        mean = Averages(self.sampler.rows, moments, {"cubed": cubed})
-        shape = np.shape(moments)[1:]
-        trial = self.sampler.rows[: self.count]
-        drift = scene.moment_drift  # a bound method of a module takes time to make
-        found = [np.broadcast_to(drift(powers, mean), shape) for powers in trial]
-        return np.stack(found).astype(float)
+        return drift_of(scene, self.sampler, self.count, moments, cubed)
 
     def _linearise(self) -> None:
         """G, B and L; the scaling mode in place of the first square."""
@@ -200,6 +195,15 @@ class Generator:
             self.response @ coefficients + self.collisional(path),
             pure,
         )
+
+
+def drift_of(scene, sampler: Sampler, count: int, moments: np.ndarray, cubed) -> np.ndarray:
+    """d⟨φ_k⟩/dt of the first `count` rows by all but collisions: (count, ...)."""
+    mean = Averages(sampler.rows, moments, {"cubed": cubed})
+    shape = np.shape(moments)[1:]
+    drift = scene.moment_drift  # a bound method of a module takes time to make
+    found = [np.broadcast_to(drift(powers, mean), shape) for powers in sampler.rows[:count]]
+    return np.stack(found).astype(float)
 
 
 def value_at(scene, path: str) -> Any:

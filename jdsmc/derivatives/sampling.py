@@ -1,8 +1,9 @@
 """What is sampled of a gas for its derivatives: sums over particles and pairs, on the device.
 
-Pairs of different particles are drawn from the present velocities and scattered in a random
-direction and its opposite. All velocities are divided by a thermal speed before powers are taken,
-so that float32 is enough; the host multiplies it back.
+Pairs of different particles are drawn from the present velocities, several partners of each, and
+scattered in all directions or in a random one and its opposite (`after`). All velocities are
+divided by a thermal speed before powers are taken, so that float32 is enough; the host multiplies
+it back.
 """
 
 from typing import Any, NamedTuple
@@ -10,18 +11,19 @@ from typing import Any, NamedTuple
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+from jax import lax
 
-from ..collisions.sampled import (
-    pairs_per_particle,
-    random_outgoing,
-    random_pairs,
-    sampling_key,
-)
+from .. import random
+from ..collisions.sampled import pairs_per_particle, random_pairs, sampling_key
 from ..gases import AbstractGas
 from ..measure.polynomials import Powers, Symmetry
 from ..motion.drive import centred, temperature_of
 from ..types import Key, Scalar, Velocity
+from .after import after, both
 from .numbers import tangent
+
+PAIRINGS = 2
+"""Partners of each particle in a sample: the noise is that of pairs much more than of particles."""
 
 
 class Sampler(NamedTuple):
@@ -71,46 +73,38 @@ class Sampler(NamedTuple):
             "moments": _average(values),
             "second": values @ values[:trial].T / count,
         }
-        return sums | self._of_pairs(sampling_key(key), gas, velocity, reference)
+
+        def one(_, own):
+            return None, self._of_pairs(own, gas, velocity, reference)
+
+        keys = [random.fold_in(sampling_key(key), k) for k in range(PAIRINGS)]
+        _, each = lax.scan(one, None, jax.tree.map(lambda *words: jnp.stack(words), *keys))
+        return sums | jax.tree.map(lambda x: jnp.mean(x, axis=0), each)
 
     def _of_pairs(self, key: Key, gas, velocity: Velocity, reference) -> dict:
-        left, right = random_pairs(key, velocity)
-        relative = tuple(a - b for a, b in zip(left, right, strict=True))
-        speed = jnp.sqrt(sum(g * g for g in relative))
-        outgoing = random_outgoing(key, relative, speed)
-        basis, per_particle = self.basis, pairs_per_particle(velocity[0].size)
-        before = [
-            a + b
-            for a, b in zip(
-                self.symmetry.values(left, basis), self.symmetry.values(right, basis), strict=True
-            )
-        ]
+        pair = random_pairs(key, velocity)
+        speed = jnp.sqrt(sum((a - b) ** 2 for a, b in zip(*pair, strict=True)))
+        symmetry, basis = self.symmetry, self.basis
+        before = both(symmetry, basis, *pair)
+        per_particle = pairs_per_particle(velocity[0].size)
 
         def changes(gas):
-            """Rate times change of every φ_k, and the rate: (trial + 1, pairs)."""
-            rate = gas.rate(speed * reference) * jnp.ones_like(speed)
-            after = [jnp.zeros_like(speed) for _ in basis]
-            for one in outgoing:
-                transfer = gas.momentum_transfer(
-                    tuple(g * reference for g in relative), tuple(e * reference for e in one)
-                )
-                transfer = tuple(t / reference for t in transfer)
-                for side, sign in ((left, -1.0), (right, 1.0)):
-                    moved = tuple(v + sign * t for v, t in zip(side, transfer, strict=True))
-                    values = self.symmetry.values(moved, basis)
-                    after = [a + 0.5 * x for a, x in zip(after, values, strict=True)]
-            change = [rate * (a - b) for a, b in zip(after, before, strict=True)]
-            return _matrix([*change, rate]) * per_particle
+            """Rate times change of every φ_k, and the rate: arrays of pairs."""
+            rate = gas.rate(speed * reference) * jnp.ones_like(speed) * per_particle
+            then = after(symmetry, basis, key, gas, pair, reference)
+            return [*(rate * (a - b) for a, b in zip(then, before, strict=True)), rate]
 
-        rates, both = changes(gas), _matrix(before)
+        rates, sums = _matrix(changes(gas)), _matrix(before)
         cubed = (speed * speed * speed).reshape(1, -1)
         pairs = speed.size
         return {
             "source": _average(rates),
-            "response": rates @ both.T / pairs,
+            "response": rates @ sums.T / pairs,
             "cubed": _average(cubed)[0],
-            "cubed_response": (cubed @ both.T / pairs)[0],
-            "tangents": self._tangents(lambda gas: _average(changes(gas)), gas),
+            "cubed_response": (cubed @ sums.T / pairs)[0],
+            "tangents": self._tangents(
+                lambda gas: jnp.stack([jnp.mean(x) for x in changes(gas)]), gas
+            ),
         }
 
     def _tangents(self, source, gas):

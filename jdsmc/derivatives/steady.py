@@ -7,6 +7,7 @@ import numpy as np
 from ..scenarios.base import AbstractScene, weighted_means
 from ..scenarios.homogeneous import AbstractHomogeneous
 from ..stats import BLOCKS, jackknife, larger_errors
+from .controls import controlled
 from .observed import reported_names, slopes, state_of
 from .response import Facts, Generator
 from .samples import Samples
@@ -33,6 +34,8 @@ def steady_derivatives(
         return None
     means, weights, _ = samples.point(point, first)
     degree = samples.sampler.degree
+    if facts.stationary:
+        means = controlled(scene, samples.sampler, means, weights)
 
     def found(averages: dict, at: int) -> dict[str, np.ndarray]:
         generator = Generator(scene, samples.sampler, averages, at, facts)

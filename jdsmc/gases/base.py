@@ -61,9 +61,10 @@ class AbstractGas(eqx.Module):
         """
 
     def transfer_share(self) -> Any:
-        """s of a gas that transfers s (g - g') whatever the pair, traced; None for any other.
+        """s of a gas of spheres that transfers s (g - g') whatever the pair, traced; else None.
 
-        A gas that knows it is simulated faster (see `measure.balance`).
+        Averages over directions are then known in closed form: such a gas is simulated faster (see
+        `measure.balance`), and its derivatives have less noise.
         """
         return None
 

@@ -19,10 +19,15 @@ def restitution_field():
     return number(meaning, low=0.0, high=1.0, low_included=False, example=0.9)
 
 
+def share(restitution):
+    """c of the momentum c (g - e) that is transferred along the line of centres."""
+    return (1.0 + restitution) / 4.0
+
+
 def normal_transfer(restitution, relative_velocity, outgoing):
     """(1+α)/2 of what is exchanged along the line of centres; elastic particles exchange it all."""
-    share = (1.0 + restitution) / 4.0
-    return tuple(share * (g - e) for g, e in zip(relative_velocity, outgoing, strict=True))
+    c = share(restitution)
+    return tuple(c * (g - e) for g, e in zip(relative_velocity, outgoing, strict=True))
 
 
 class InelasticHardSpheres(AbstractGas):
@@ -40,8 +45,8 @@ class InelasticHardSpheres(AbstractGas):
     def momentum_transfer(self, relative_velocity, outgoing):
         return normal_transfer(self.restitution, relative_velocity, outgoing)
 
-    def transfer_share(self):
-        return (1.0 + self.restitution) / 4.0
+    def transfer_share(self) -> Any:
+        return share(self.restitution)
 
     def speed_exponent(self) -> float:
         return 1.0
@@ -130,10 +135,10 @@ class ElasticHardSpheres(AbstractGas):
         return self.collision_factor() * speed
 
     def momentum_transfer(self, relative_velocity, outgoing):
-        return tuple(0.5 * (g - e) for g, e in zip(relative_velocity, outgoing, strict=True))
+        return normal_transfer(1.0, relative_velocity, outgoing)
 
     def transfer_share(self) -> float:
-        return 0.5
+        return share(1.0)
 
     def speed_exponent(self) -> float:
         return 1.0

@@ -22,13 +22,15 @@ Powers = tuple[int, ...]
 class Symmetry(NamedTuple):
     """Which polynomials a distribution has.
 
-    `factors` of a velocity, and their degrees; `even`: only even total degrees; `rows`: largest
+    `factors` of a velocity, their degrees, and of how many components each is made (a factor of
+    degree 2 is the sum of their squares); `even`: only even total degrees; `rows`: largest
     degree of the averages that are followed; `squares`: powers whose sum is V²; `moments`: the
     moments of `measure.moments` from the averages of the polynomials.
     """
 
     factors: Callable[[Particles], tuple]
     degrees: tuple[int, ...]
+    components: tuple[int, ...]
     even: bool
     rows: int
     squares: tuple[Powers, ...]
@@ -45,6 +47,18 @@ class Symmetry(NamedTuple):
     def _holds(self, powers: Powers, degree: int) -> bool:
         own = self.degree(powers)
         return 1 <= own <= degree and not (self.even and own % 2)
+
+    def laplacian(self, powers: Powers) -> list[tuple[int, Powers]]:
+        """∇² of one polynomial in the velocity: factors, and polynomials of a lower degree."""
+        found = []
+        for k, (n, degree, size) in enumerate(
+            zip(powers, self.degrees, self.components, strict=True)
+        ):
+            factor = n * (n - 1) if degree == 1 else 2 * n * (2 * n + size - 2)
+            if factor:
+                lower = n - 2 if degree == 1 else n - 1
+                found.append((factor, (*powers[:k], lower, *powers[k + 1 :])))
+        return found
 
     def values(self, velocity: Particles, basis: list[Powers]) -> list:
         """The polynomials of every particle, one array each."""
@@ -155,13 +169,16 @@ def _isotropic_factors(velocity: Particles) -> tuple:
 
 
 SHEARED = Symmetry(
-    *(_sheared_factors, (1, 1, 2), True, 6),
+    *(_sheared_factors, (1, 1, 2), (1, 1, 1), True, 6),
     *(((2, 0, 0), (0, 2, 0), (0, 0, 1)), _sheared_moments),
 )
 """Even in v_z, and under reversal of the velocity: v_x^i v_y^j (v_z²)^l with i + j even."""
 
-AXIAL = Symmetry(_axial_factors, (1, 2), False, 7, ((2, 0), (0, 1)), _axial_moments)
+AXIAL = Symmetry(
+    *(_axial_factors, (1, 2), (1, 2), False, 7),
+    *(((2, 0), (0, 1)), _axial_moments),
+)
 """About the x axis: v_x^i (v_y² + v_z²)^j."""
 
-ISOTROPIC = Symmetry(_isotropic_factors, (2,), True, 6, ((1,),), _isotropic_moments)
+ISOTROPIC = Symmetry(_isotropic_factors, (2,), (3,), True, 6, ((1,),), _isotropic_moments)
 """V^{2n}."""

@@ -118,8 +118,7 @@ class AbstractHomogeneous(AbstractScene):
 
     def fit_options(self, options: Options) -> Options:
         """As they are; ValueError for a gas that is mistaken about itself."""
-        if self.balanced:
-            check_share(self.gas)
+        check_share(self.gas)
         return options
 
     def initial(self, key: Key, options: Options) -> HomogeneousState:

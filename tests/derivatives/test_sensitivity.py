@@ -45,9 +45,10 @@ def test_scaling_of_the_frictional_elastic_gas(elastic):
         drag = of["restitution"].value * (1 - ALPHA**2) / (-2 * ALPHA)
         assert drag == pytest.approx(-BETA * of["rate_factor"].value, rel=1e-5)
     # a* goes as β times a function of (1-α²)/β
-    of, value = elastic["reduced_shear_rate"], elastic.result["reduced_shear_rate"].value
+    of, own = elastic["reduced_shear_rate"], elastic.result["reduced_shear_rate"]
     drag = of["restitution"].value * (1 - ALPHA**2) / (-2 * ALPHA)
-    assert drag + BETA * of["rate_factor"].value == pytest.approx(value, rel=2e-3)
+    # a* of the samples, from which noise is taken that the value of the run keeps
+    assert abs(drag + BETA * of["rate_factor"].value - own.value) < 2 * own.error < 0.02
 
 
 def test_scaling_without_the_facts(elastic):
