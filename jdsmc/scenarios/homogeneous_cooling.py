@@ -72,7 +72,7 @@ class HomogeneousCooling(AbstractHomogeneous):
         """Only collisions act, so that there is nothing to split."""
         if options.splitting != "strang":
             raise ValueError("splitting = 'lie' has no meaning here: only collisions act.")
-        return options
+        return super().fit_options(options)
 
     def has_steady_state(self) -> bool:
         """True if the reduced distribution becomes steady: for a gas without a speed of its own."""
