@@ -174,8 +174,14 @@ def without_noise(means: dict[str, Any]) -> dict[str, Any]:
 
 
 def _solved(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """The solution; where a moment never changes (no collisions), the one that leaves it alone."""
+    """The solution; where a moment never changes (no collisions), the one that leaves it alone.
+
+    NaN where there is one in the matrix, of a point without steady values: the others stay.
+    """
+    known = np.all(np.isfinite(matrix), axis=(-2, -1), keepdims=True)
+    matrix = np.where(known, matrix, np.eye(matrix.shape[-1]))
     try:
-        return np.linalg.solve(matrix, right)
+        found = np.linalg.solve(matrix, right)
     except np.linalg.LinAlgError:
-        return np.linalg.pinv(matrix) @ right
+        found = np.linalg.pinv(matrix) @ right
+    return np.where(known, found, np.nan)

@@ -142,3 +142,11 @@ def test_a_scene_that_does_not_ask_pays_nothing():
         state = eqx.filter_eval_shape(one.initial, random.key_from_seed(1), sizes)
         _, record = eqx.filter_eval_shape(one.advance, random.key_from_seed(1), state, sizes)
         assert (record.tally.watched is not None) == there
+
+
+def test_a_point_without_numbers_and_one_without_collisions_leave_the_others_alone():
+    """NaN stays where it is, and a moment that never changes is left as it was."""
+    matrix = np.stack([2.0 * np.eye(4), np.zeros((4, 4)), np.full((4, 4), np.nan)])
+    found = balance._solved(matrix, np.ones((3, 4, 1)))[..., 0]
+    np.testing.assert_allclose(found[:2], [[0.5] * 4, [0.0] * 4], atol=1e-15)  # rounding
+    assert np.all(np.isnan(found[2]))
