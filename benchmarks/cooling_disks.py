@@ -189,7 +189,7 @@ def speed() -> None:
     say(f"NPROC = {os.environ.get('NPROC', 'not set')}")
     real, copies, duration = 3000, 10, 20.0
     scene = CoolingDisks(InelasticHardDisks(0.9), density=DENSITY, copies=copies)
-    options = {"n_particles": real, "time_step": 0.14, "steps_per_record": 5, "progress": False}
+    options = {"n_particles": real, "time_step": 0.07, "steps_per_record": 5, "progress": False}
     jdsmc.run(scene, duration=1.0, **options)
     wall, processor = time.perf_counter(), time.process_time()
     result = jdsmc.run(scene, duration=duration, seed=1, **options)

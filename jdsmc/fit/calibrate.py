@@ -18,7 +18,7 @@ from .numbers import check_model
 from .targets import FREE, SERIES, Target, check_free, nearest, targets_of
 from .transient import transient
 
-USUAL = {"n_particles": 4096, "rtol": 3e-3}
+USUAL = {"n_particles": 4096, "rtol": 1e-3}
 """Of what is run, if nothing else is said: β to 1%. Small gases, as most of a run is warm-up; what
 4096 particles change is the same in both gases, and a tenth of the error."""
 
@@ -49,7 +49,7 @@ def calibrate(
         free: names of numbers of the gas or the scene; by default `rate_factor`, and `drag_factor`
             too for a list of two or more.
         sweep: a result of the scene `elastic_sweep(model, restitution)`, which is run otherwise.
-        options: of `jdsmc.run`, for whatever is run; 4096 particles and rtol = 0.003 if not said.
+        options: of `jdsmc.run`, for whatever is run; 4096 particles and rtol = 0.001 if not said.
     Returns: a `Result` with the free numbers and `misfit`, the root of the mean square of the
     relative deviations left (%), each with its error, over `restitution` and `target`. Where
     nothing matches there is NaN, and a remark says what comes nearest. Errors hold those of both

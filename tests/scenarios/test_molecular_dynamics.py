@@ -185,7 +185,7 @@ def test_few_in_a_cell_warns():
     """Recollisions: how many copies would do."""
     scene = CoolingDisks(InelasticHardDisks(0.8), density=0.1, copies=1, real_per_cell=0.4)
     with pytest.warns(UserWarning, match="fictive particles a cell"):
-        jdsmc.run(scene, n_particles=200, duration=0.5, progress=False)
+        jdsmc.run(scene, n_particles=200, duration=0.5, time_step=0.01, progress=False)
 
 
 def test_power_of_the_mode_in_time(elastic):
