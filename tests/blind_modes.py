@@ -10,7 +10,6 @@ on the other side.
 """
 
 import argparse
-import csv
 import time
 import warnings
 from pathlib import Path
@@ -21,6 +20,8 @@ import jdsmc
 from jdsmc import InelasticHardDisks
 from jdsmc.scenarios import CoolingDisks, MolecularDynamics
 from jdsmc.theory import langevin
+
+from .rows import Rows
 
 REDUCED = 20.0
 DENSE = 0.02
@@ -82,24 +83,14 @@ def outcome(kind: str, alpha: float, seed: int) -> list[dict]:
 
 def campaign(table: Path, kinds=("cells", "dynamics"), alphas=(0.8, 1.0), seeds=SEEDS) -> list:
     """Run what the table lacks, one seed after another of all cases; all its rows."""
-    if not table.exists():
-        table.parent.mkdir(parents=True, exist_ok=True)
-        table.write_text(",".join(COLUMNS) + "\n")
-    done = {(row["scene"], float(row["alpha"]), int(row["seed"])) for row in rows_of(table)}
+    kept = Rows(table, COLUMNS)
+    done = {(row["scene"], float(row["alpha"]), int(row["seed"])) for row in kept.all()}
     for seed in range(seeds):
         for kind in kinds:
             for alpha in alphas:
                 if (kind, alpha, seed) not in done:
-                    rows = outcome(kind, alpha, seed)
-                    with table.open("a", newline="") as file:
-                        csv.DictWriter(file, COLUMNS).writerows(rows)
-    return rows_of(table)
-
-
-def rows_of(table: Path) -> list[dict]:
-    """What the table holds."""
-    with table.open() as file:
-        return list(csv.DictReader(file))
+                    kept.add(outcome(kind, alpha, seed))
+    return kept.all()
 
 
 def summary(rows: list[dict]) -> dict[tuple, tuple[int, float, float, float]]:

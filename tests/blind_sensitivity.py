@@ -8,7 +8,6 @@ a second call goes on where the first was ended.
 """
 
 import argparse
-import csv
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +16,7 @@ import jdsmc
 from jdsmc import InelasticHardSpheres
 from jdsmc.scenarios import UniformShear
 
+from .rows import Rows
 from .truth_sensitivity import OBSERVABLES, RESTITUTIONS, slopes
 
 SEEDS = range(300, 320)
@@ -78,17 +78,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=main.__doc__)
     parser.add_argument("folder", type=Path, help="where the table is kept")
     given = parser.parse_args()
-    given.folder.mkdir(parents=True, exist_ok=True)
-    table = given.folder / "blind_sensitivity.csv"
-    if not table.exists():
-        table.write_text(",".join(COLUMNS) + "\n")
-    done = {(float(r["restitution"]), int(r["seed"])) for r in csv.DictReader(table.open())}
+    table = Rows(given.folder / "blind_sensitivity.csv", COLUMNS)
+    done = {(float(row["restitution"]), int(row["seed"])) for row in table.all()}
     for seed in SEEDS:
         for alpha in RESTITUTIONS:
             if (alpha, seed) not in done:
-                with table.open("a", newline="") as file:
-                    csv.DictWriter(file, COLUMNS).writerows(outcome(alpha, seed))
-    good = report(list(csv.DictReader(table.open())), slopes())
+                table.add(outcome(alpha, seed))
+    good = report(table.all(), slopes())
     print("as it should be" if good else "WRONG")
 
 

@@ -8,7 +8,6 @@ on where the first was ended.
 """
 
 import argparse
-import csv
 import json
 import time
 from pathlib import Path
@@ -25,6 +24,8 @@ from jdsmc.scenarios import (
     UniformShear,
 )
 from jdsmc.theory.bgk_shear_flow import steady_state
+
+from .rows import Rows
 
 SHEARED = ("temperature", "shear_stress", "normal_stress_xy", "reduced_viscosity")
 OBSERVABLES = {
@@ -177,20 +178,16 @@ def main() -> None:
     parser.add_argument("folder", type=Path, help="where the table and the references are kept")
     parser.add_argument("--cases", help="first:last of the hundred", default="0:100")
     given = parser.parse_args()
-    given.folder.mkdir(parents=True, exist_ok=True)
-    table = given.folder / "blind_steady.csv"
-    if not table.exists():
-        table.write_text(",".join(COLUMNS) + "\n")
-    done = {int(row["case"]) for row in csv.DictReader(table.open())}
+    table = Rows(given.folder / "blind_steady.csv", COLUMNS)
+    done = {int(row["case"]) for row in table.all()}
     first, last = map(int, given.cases.split(":"))
     for case in sorted(cases()[first:last], key=lambda case: case["alpha"] % 1.0):
         if case["case"] in done:
             continue
         rows = outcome(case, given.folder)
-        with table.open("a", newline="") as file:
-            csv.DictWriter(file, COLUMNS).writerows(rows)
+        table.add(rows)
         print(case["case"], case["what"], case["alpha"], rows[0]["outcome"], flush=True)
-    rows = list(csv.DictReader(table.open()))
+    rows = table.all()
     runs = {
         kind: {r["case"] for r in rows if r["outcome"] == kind} for kind in ("wrong", "refused")
     }

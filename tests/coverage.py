@@ -11,7 +11,6 @@ error is the larger of two, which makes more of them lie within.
 """
 
 import argparse
-import csv
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -31,6 +30,8 @@ from jdsmc.scenarios import (
     WhiteNoiseThermostat,
 )
 from jdsmc.theory import boltzmann
+
+from .rows import Rows
 
 SEEDS = 60
 TRUTH_SEED = 1_000_003
@@ -207,22 +208,15 @@ def main() -> None:
     parser.add_argument("--seeds", type=int, default=SEEDS)
     parser.add_argument("--docs", action="store_true", help="put the page into docs/")
     given = parser.parse_args()
-    given.folder.mkdir(parents=True, exist_ok=True)
-    table = given.folder / "coverage.csv"
-    if not table.exists():
-        table.write_text(",".join(COLUMNS) + "\n")
-    with table.open() as file:
-        done = {(row["scene"], int(row["seed"])) for row in csv.DictReader(file)}
+    table = Rows(given.folder / "coverage.csv", COLUMNS)
+    done = {(row["scene"], int(row["seed"])) for row in table.all()}
     for name, case in cases().items():
         truths = [TRUTH_SEED] if case.longer else []
         for seed in [*truths, *range(given.seeds)]:
             if given.only in name and (name, seed) not in done:
-                rows = rows_of(name, case, seed)
-                with table.open("a", newline="") as file:
-                    csv.DictWriter(file, COLUMNS).writerows(rows)
+                table.add(rows_of(name, case, seed))
         print(name, flush=True)
-    with table.open() as file:
-        text = page(scores(list(csv.DictReader(file))))
+    text = page(scores(table.all()))
     print(text)
     folders = [given.folder] + [Path(__file__).parents[1] / "docs"] * given.docs
     for folder in folders:

@@ -6,6 +6,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from .base import AbstractGas
+from .hard_spheres import normal_transfer, share
 
 MAXWELL_RATE = 16.0 * math.sqrt(2.0 / math.pi) / 5.0
 """Pair rate of Maxwell molecules, as a relative speed of hard spheres: their viscosity at T0 is the
@@ -25,10 +26,10 @@ class MaxwellMolecules(AbstractGas):
         return jnp.full_like(speed, MAXWELL_RATE)
 
     def momentum_transfer(self, relative_velocity, outgoing):
-        return tuple(0.5 * (g - e) for g, e in zip(relative_velocity, outgoing, strict=True))
+        return normal_transfer(1.0, relative_velocity, outgoing)
 
     def transfer_share(self) -> float:
-        return 0.5
+        return share(1.0)
 
     def speed_exponent(self) -> float:
         return 0.0

@@ -42,7 +42,7 @@ WIDEST, FEWEST = 0.1, 50
 least as many as in the paper."""
 
 FEWEST_PARTICLES = 20_000
-"""Default of all layers together: by 400 a layer what one more would change is below 0.3%."""
+"""Default of all layers together: 400 in each of the fewest."""
 
 GLOBAL = (
     next(one for one in RHEOLOGY if one.name == "shear_stress"),

@@ -106,5 +106,6 @@ class UniformShear(AbstractHomogeneous):
 
     def observables(self, means: dict) -> dict:
         """Stresses and the viscometric functions, beside what every homogeneous gas has."""
-        own = rheology(without_noise(means), self.shear_rate, self.gas.speed_exponent())
+        means = without_noise(means)  # once: what it returns has no balance any more
+        own = rheology(means, self.shear_rate, self.gas.speed_exponent())
         return super().observables(means) | own
