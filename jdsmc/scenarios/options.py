@@ -12,8 +12,8 @@ from ..types import Whole
 
 PARTICLES = 5_120
 """Default of a scene that has none of its own. Averages are off by about 1/N (a2 by -2/3N, T of a
-sheared gas by 2e-4): within errors of a thousandth, which a gas of 20000 reaches in three times the
-time, most of it the approach to the steady state (benchmarks/results/work_precision)."""
+sheared gas by 2e-4): within errors of a thousandth of the stress, for which a gas of 20000 takes
+nearly twice as long, most of it the approach to the steady state."""
 
 TIME_STEP = 0.05
 """Default fraction of τ(T): steady values at the strongest shear of the papers are within 0.3% of
