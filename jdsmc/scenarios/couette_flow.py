@@ -97,7 +97,7 @@ class CouetteFlow(AbstractWalled):
     def __post_init__(self):
         if self.layers is None:
             slab = self.cold_temperature, self.gravity, self.length
-            self.layers = 2 * thin_layers(*slab, jump=True)
+            self.layers = thin_layers(*slab, jump=True, times=2)
 
     def approach(self, options: Options) -> Approach:
         """Diffusion of momentum and heat across the slab."""

@@ -9,15 +9,19 @@ WIDEST = 0.5
 better by (32/225π)(Δz/λ)²: 1.1% there, and 0.1% or less of the heat flux through the whole slab,
 most of whose resistance is elsewhere."""
 
-FEWEST = 20
-"""Layers that any slab has besides, to draw its profiles."""
+FEWEST = 100
+"""Layers that any slab between walls has, to draw its profiles; those of the paper."""
+
+RUNGS = 50 * 2 ** np.arange(20)
+"""Numbers of layers to choose from. Few, so that neighbouring points of a sweep need the same: a
+point has the layers, and so the numbers, that it has in a run of its own."""
 
 JUMP = 2.127
 """Temperature jump at a wall over λ dT/dz (hard spheres, Maxwell walls)."""
 
 
-def thin_layers(cold_temperature, gravity, length, *, jump: bool) -> int:
-    """Layers at most `WIDEST` mean free paths wide, for all points of a sweep over these numbers.
+def thin_layers(cold_temperature, gravity, length, *, jump: bool, times: int = 1) -> int:
+    """Layers at most `WIDEST` mean free paths wide, or so many times thinner; as `common_layers`.
 
     `jump`: whether the gas at a wall is warmer than the wall.
     """
@@ -27,7 +31,24 @@ def thin_layers(cold_temperature, gravity, length, *, jump: bool) -> int:
     cold, gravity, length = np.broadcast_arrays(*np.ix_(*slab))
     length, gravity = np.clip(length, 1e-6, 1e3), np.clip(gravity, -1.0, 1.0)
     wanted = length * densest(np.clip(cold, 1e-6, 1.0), gravity, length, jump) / WIDEST
-    return FEWEST + int(np.ceil(np.max(wanted, initial=1.0)))
+    return common_layers(np.maximum(FEWEST, times * wanted))
+
+
+def common_layers(wanted) -> int:
+    """The least of `RUNGS` that is enough for each point of a sweep by itself.
+
+    Arguments: layers that each point needs, an array or a number.
+    Raises ValueError if points need different ones: then they would not be the points they are in
+    runs of their own.
+    """
+    rungs = RUNGS[np.searchsorted(RUNGS, np.ravel(wanted))]
+    least, most = int(np.min(rungs)), int(np.max(rungs))
+    if least < most:
+        raise ValueError(
+            f"points of this sweep need {least} to {most} layers, but all points of a sweep have as "
+            f"many: give layers = {most}, which is enough for each, or run them one by one."
+        )
+    return most
 
 
 def densest(cold, gravity, length, jump: bool):

@@ -30,6 +30,7 @@ from ..types import Key, Layer, Profile, Scalar, Velocities
 from ..units import INITIAL_TEMPERATURE
 from .approach import Approach, of_sheared_slab
 from .base import Record
+from .layers import common_layers
 from .options import Options
 from .slab import AbstractSlab, SlabState, uniform
 
@@ -95,7 +96,8 @@ class ShearedSlab(AbstractSlab):
             (L > 25 at α = 0.9, according to the paper).
         initial_state: "equilibrium" (at rest, eq. 3.5), "nonequilibrium" (eq. 3.6), or
             "local_equilibrium" (uniform shear from the start, eq. 3.12).
-        layers: number of layers; by default 10 a mean free path at the mean density, at least 50.
+        layers: number of layers; by default 50, 100, 200, ...: 10 a mean free path at the mean density
+            or more. All points of a sweep must need the same, else give them.
     The numbers may be 1-D arrays, for a sweep. Raises ValueError for values outside these.
 
     The time step follows the temperature averaged over the particles, as in the paper.
@@ -122,8 +124,8 @@ class ShearedSlab(AbstractSlab):
         if self.layers is None:
             lengths = np.ravel(check.physical(self.length))
             known = lengths.dtype.kind == "f" and np.all(np.isfinite(lengths))  # else refused soon
-            longest = min(float(np.max(lengths, initial=0.0)), 1e3) if known else 0.0
-            self.layers = max(FEWEST, int(np.ceil(longest / WIDEST)))
+            wanted = np.clip(lengths, 0.0, 1e3) / WIDEST if known else FEWEST
+            self.layers = common_layers(np.maximum(FEWEST, wanted))
 
     def __check_init__(self):
         if isinstance(self.gas, ElasticHardSpheres) and self.gas.drag == "measured":

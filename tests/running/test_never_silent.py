@@ -5,7 +5,7 @@ import pytest
 
 import jdsmc
 from jdsmc import ElasticHardSpheres, InelasticHardSpheres
-from jdsmc.scenarios import FourierFlow, ShearedSlab, UniformShear
+from jdsmc.scenarios import CouetteFlow, FourierFlow, ShearedSlab, UniformShear
 from jdsmc.scenarios.layers import densest, thin_layers
 
 from .small import simulate
@@ -79,18 +79,34 @@ def test_type_two_walls_of_one_temperature():
 
 def test_layers_are_as_thin_as_the_gas_needs():
     """Half of a mean free path where it is densest, for every point of a sweep; or as asked."""
-    assert thin_layers(1.0, 0.0, 10.0, jump=True) == 20 + 20
-    assert thin_layers(0.25, 0.0, 10.0, jump=False) == 20 + int(np.ceil(2 * 10 * 1.75 / 0.75))
-    assert FourierFlow(ELASTIC, [0.5, 0.05], length=[1.0, 1000.0]).layers == thin_layers(
-        0.05, 0.0, 1000.0, jump=True
-    )
+    for slab in ((1.0, 0.0, 10.0), (0.25, 0.0, 10.0), (0.05, 0.0, 1000.0), (0.05, 0.01, 10.0)):
+        layers = thin_layers(*slab, jump=False)
+        needed = 2 * slab[2] * densest(*slab, False)
+        assert needed <= layers <= max(100, 2 * needed)
+        assert 2 * needed <= thin_layers(*slab, jump=False, times=2) <= 2 * layers
     assert FourierFlow(ELASTIC, 0.05, layers=7).layers == 7
     # a simulation at T_- = 0.05, L = 10 has 3.9 in the first of 88 layers
     assert float(densest(0.05, 0.0, 10.0, True)) == pytest.approx(3.9, rel=0.25)
-    assert FourierFlow(ELASTIC, 1.0, 0.5, 10.0).layers == 20 + 2 * 10 * 10
+    assert FourierFlow(ELASTIC, 1.0, 0.5, 10.0).layers == 200  # 2 * 10 * 10
     assert ShearedSlab(ELASTIC, 1.0).layers == 50
-    long = ShearedSlab(ELASTIC, 1.0, [40.0, 1000.0])
-    assert long.layers == 10_000 and long.default_particles() == 500_000
+    long = ShearedSlab(ELASTIC, 1.0, [700.0, 1000.0])
+    assert long.layers == 12_800 and long.default_particles() == 640_000
+
+
+@pytest.mark.parametrize(
+    ("make", "layers"),
+    [
+        (lambda values: FourierFlow(ELASTIC, 0.5, length=values), 400),
+        (lambda values: CouetteFlow(ELASTIC, 0.5, length=values), 400),
+        (lambda values: ShearedSlab(ELASTIC, 1.0, values), 1600),
+    ],
+)
+def test_points_of_a_sweep_have_the_layers_of_their_own_runs(make, layers):
+    """Or the sweep is refused: its points would have other numbers than runs of their own."""
+    with pytest.raises(ValueError, match=f"give layers = {layers}"):
+        make([1.0, 100.0])
+    near = [9.0, 9.9]
+    assert make(near).layers == make(9.0).layers == make(9.9).layers
 
 
 def test_a_run_remarks_on_layers_that_are_too_wide():
