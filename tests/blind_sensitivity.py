@@ -19,7 +19,7 @@ from jdsmc.scenarios import UniformShear
 from .rows import Rows
 from .truth_sensitivity import OBSERVABLES, RESTITUTIONS, slopes
 
-SEEDS = range(300, 320)
+SEEDS = range(400, 420)
 SHEAR_RATE = 0.5
 """Near that of T_s = T0; reduced values do not depend on it."""
 
