@@ -29,7 +29,9 @@ OBSERVABLES = (
         )
         for side in ("lower", "upper")
     ),
+    Observable("mean_velocity", "flow velocity averaged over the particles", "v0"),
     Observable("wall_work", "work done by the walls, per area and time", "n̄ m v0³"),
+    Observable("force_work", "work done by the force, per area and time", "n̄ m v0³"),
     Observable("dissipation", "energy lost in collisions, per area and time", "n̄ m v0³"),
     Observable("shear_rate", "slope du_x/dz of a line through the middle half", "1/τ0"),
     *(

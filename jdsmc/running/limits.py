@@ -39,7 +39,7 @@ class Limits:
                 check.scalar(name, value, 0.0, np.inf, high_included=False)
         self.duration, self.collisions, self.records = duration, collisions, records
         self.budget = float(budget)
-        self.observables = _names(scene, observable)
+        self.observables = _names(scenes, observable)
         self.rtol = _shares(scene.default_rtol if rtol is None else rtol, self.observables)
         self.fixed = duration is not None or collisions is not None
         self.monitored = scene.monitored
@@ -102,11 +102,18 @@ def _shares(rtol, names: tuple[str, ...]) -> dict[str, float]:
     return {name: float(share) for name, share in zip(names, shares, strict=True)}
 
 
-def _names(scene: AbstractScene, observable) -> tuple[str, ...]:
+def _names(scenes: list[AbstractScene], observable) -> tuple[str, ...]:
     """The observables that end a run; ValueError for one that the scene does not report."""
-    known = [one.name for one in scene.reports]
+    known = [one.name for one in scenes[0].reports]
     if observable is None:
-        return scene.ends or (known[0],)
+        ends = {scene.ends(): None for scene in scenes}
+        if len(ends) > 1:
+            named = " or ".join(", ".join(names) for names in ends)
+            raise ValueError(
+                f"points of this sweep would end by {named}: say which as observable, or run them "
+                "apart."
+            )
+        return next(iter(ends))
     names = (observable,) if isinstance(observable, str) else observable
     if not isinstance(names, tuple | list) or not names:
         raise TypeError(f"observable = {observable!r} is neither a name nor a tuple of names.")

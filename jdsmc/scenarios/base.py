@@ -58,8 +58,6 @@ class AbstractScene(eqx.Module):
     reports: eqx.AbstractClassVar[tuple[Observable, ...]]
     monitored: eqx.AbstractClassVar[tuple[str, ...]]
 
-    ends: ClassVar[tuple[str, ...]] = ()
-    """Names whose precision ends a run; the first of `reports` if there are none."""
     default_rtol: ClassVar[float] = 1e-3
     """The precision that is asked if nothing else is said."""
     evolves: ClassVar[tuple[Observable, ...]] = ()
@@ -137,6 +135,10 @@ class AbstractScene(eqx.Module):
     def default_particles(self) -> int:
         """Particles of one realization if nothing else is asked."""
         return PARTICLES
+
+    def ends(self) -> tuple[str, ...]:
+        """Observables whose precision ends a run if none is named; they must not be zero."""
+        return (self.reports[0].name,)
 
     def has_steady_state(self) -> bool:
         """True if averages become steady."""

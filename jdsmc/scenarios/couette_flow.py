@@ -6,6 +6,7 @@ rarified gases arising from inequalities of temperature", Phil. Trans. 170, 231 
 Values to hold it against are in `docs/couette_flow.md`.
 """
 
+from dataclasses import replace
 from typing import Any, ClassVar
 
 import equinox as eqx
@@ -14,12 +15,13 @@ import numpy as np
 
 from ..fields import number
 from ..gases import AbstractGas
+from ..gases.hard_spheres import loses_energy
 from ..measure import couette
 from ..measure.observable import Observable
 from ..motion.cells import totals
 from ..motion.flight import Exchange
 from ..motion.walls import Walls
-from ..types import Key, Profile
+from ..types import Key, Profile, Scalar
 from .approach import Approach, of_couette_flow
 from .layers import thin_layers
 from .options import Options
@@ -46,25 +48,34 @@ class Flow(eqx.Module):
 
 
 class CouetteFlow(AbstractWalled):
-    """A gas between walls that move along x, started from a linear profile of velocity.
+    """A gas between walls that move along x or a force along x drives it.
+
+    It starts from a linear profile of velocity. With wall_velocity = 0 and a force it is plane
+    Poiseuille flow; with neither, a gas that loses energy is granular Fourier flow.
 
     Arguments:
         gas: any without drag, of three velocity components. One that loses energy is fed by the
-            walls; with wall_velocity = 0 that is the granular Fourier flow.
+            walls.
         wall_velocity: U in v0, from 0 to 100: the upper wall moves at U/2, the lower one at -U/2.
         cold_temperature: that of the lower wall over that of the upper one, T0, in (0, 1].
         accommodation: χ in (0, 1] of both walls. (With χ = 0 nothing would hold the gas.)
         gravity: g in v0²/λ0, positive towards the lower wall; between -1 and 1.
         length: L in λ0, in (0, 1000].
+        force: acceleration f along x in v0²/λ0, between -1 and 1. It stands for a pressure gradient
+            n̄ m f.
         layers: number of layers; by default twice those of the Fourier flow, since layers of Δz
             conduct momentum better by (16/45π)(Δz/λ)². (A gas that loses much energy is denser in
             its middle, and may need more.)
     Numbers or, for a sweep, 1-D arrays. Raises ValueError for values outside these.
+    A run ends by the stress between moving walls, else by what flows: particles, or heat.
     """
 
     command: ClassVar[str] = "couette"
     reports: ClassVar[tuple[Observable, ...]] = couette.OBSERVABLES
-    monitored: ClassVar[tuple[str, ...]] = ("energy", "height", "tilt", "shear_stress")
+    monitored: ClassVar[tuple[str, ...]] = (
+        *("energy", "height", "tilt"),
+        *("shear_stress", "mean_velocity"),
+    )
 
     gas: AbstractGas
     wall_velocity: Any = number(
@@ -92,6 +103,7 @@ class CouetteFlow(AbstractWalled):
         "gravity g, positive towards the lower wall", "v0²/λ0", low=-1.0, high=1.0, default=0.0
     )
     length: Any = distance_of_walls()
+    force: Any = number("acceleration f along the walls", "v0²/λ0", low=-1.0, high=1.0, default=0.0)
     layers: int = layers_between_walls()
 
     def __post_init__(self):
@@ -99,10 +111,18 @@ class CouetteFlow(AbstractWalled):
             slab = self.cold_temperature, self.gravity, self.length
             self.layers = thin_layers(*slab, jump=True, times=2)
 
+    def ends(self) -> tuple[str, ...]:
+        """The stress of moving walls, the flow that a force drives, or the heat of the walls."""
+        if self.wall_velocity != 0:
+            return ("shear_stress",)
+        if self.force != 0:
+            return ("mean_velocity",)
+        return ("dissipation",) if loses_energy(self.gas) else ("heat_flux_lower_wall",)
+
     def approach(self, options: Options) -> Approach:
         """Diffusion of momentum and heat across the slab."""
         found = of_couette_flow(
-            *(self.gas, self.cold_temperature, self.wall_velocity),
+            *(self.gas, self.cold_temperature, self.wall_velocity + abs(self.driven())),
             *(self.accommodation, self.length),
         )
         return found if self.gravity == 0 else found._replace(certain=False)
@@ -112,9 +132,25 @@ class CouetteFlow(AbstractWalled):
         place, (vx, vy, vz) = conducting(key, options, self.cold_temperature, self.length)
         velocity = (vx + self.wall_velocity * (place / self.length - 0.5), vy, vz)
         fast = jnp.asarray(FIRST_SPEED, options.dtype) + self.wall_velocity
+        fast = fast + jnp.abs(self.driven())
         crowding = FIRST_DENSITY * self.gas.rate(fast)
         none = Exchange.none(options.dtype)
         return WalledState(place, velocity, crowding, self.walls(), none)
+
+    def driven(self) -> Any:
+        """Velocity in the middle that the force drives, about: f L²/8 over η/n̄m, and the slip."""
+        slip = 1.1 * (2.0 - self.accommodation) / self.accommodation
+        return self.force * self.length * (self.length + 4.0 * slip) / 4.5
+
+    def move(self, key: Key, state: WalledState, duration: Scalar) -> WalledState:
+        """Half of the push of the force, flight between the walls, half of the push."""
+        state = super().move(key, self.pushed(state, 0.5 * duration), duration)
+        return self.pushed(state, 0.5 * duration)
+
+    def pushed(self, state: WalledState, duration: Scalar) -> WalledState:
+        """After the force alone has acted for a time."""
+        vx, vy, vz = state.velocity
+        return replace(state, velocity=(vx + self.force * duration, vy, vz))
 
     def walls(self) -> Walls:
         """Walls in motion, which reflect a share of the particles."""
@@ -164,6 +200,7 @@ class CouetteFlow(AbstractWalled):
             "heat_flux_lower_wall": heat_below * per_area,
             "heat_flux_upper_wall": -heat_above * per_area,
             "wall_work": half * (done.upper_push - done.lower_push) * per_area,
+            "mean_velocity": np.sum(momentum, axis=-1) / n_particles,
             "energy": np.sum(m.square, axis=-1) / n_particles / 2.0,
             "height": m.height / n_particles,
             "tilt": np.sum(centre * momentum, axis=-1) / n_particles,
@@ -177,5 +214,6 @@ class CouetteFlow(AbstractWalled):
             **whole,
             **found,
             **couette.slip(found["velocity_x"], self.wall_velocity, self.length),
+            "force_work": self.force * means["mean_velocity"] * self.length,
             "dissipation": means["energy_lost"] * self.length,
         }

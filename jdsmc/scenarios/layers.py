@@ -45,8 +45,8 @@ def common_layers(wanted) -> int:
     least, most = int(np.min(rungs)), int(np.max(rungs))
     if least < most:
         raise ValueError(
-            f"points of this sweep need {least} to {most} layers, but all points of a sweep have as "
-            f"many: give layers = {most}, which is enough for each, or run them one by one."
+            f"points of this sweep need {least} to {most} layers, but all of a sweep have as many: "
+            f"give layers = {most}, which is enough for each, or run them one by one."
         )
     return most
 

@@ -86,7 +86,6 @@ class NavierStokes(AbstractScene):
 
     reports: ClassVar[tuple[Observable, ...]] = OBSERVABLES
     monitored: ClassVar[tuple[str, ...]] = ()
-    ends: ClassVar[tuple[str, ...]] = ("modified_conductivity", "conductivity", "viscosity")
     default_rtol: ClassVar[float] = 5e-3
 
     gas: AbstractGas
@@ -129,6 +128,10 @@ class NavierStokes(AbstractScene):
     def default_particles(self) -> int:
         """So many that a kick is seen against the noise of one copy."""
         return 20_000
+
+    def ends(self) -> tuple[str, ...]:
+        """Those with the most noise."""
+        return ("modified_conductivity", "conductivity", "viscosity")
 
     def approach(self, options: Options) -> Approach:
         """None: what is sampled has relaxed before the first kick."""

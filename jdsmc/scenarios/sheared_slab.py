@@ -96,8 +96,8 @@ class ShearedSlab(AbstractSlab):
             (L > 25 at α = 0.9, according to the paper).
         initial_state: "equilibrium" (at rest, eq. 3.5), "nonequilibrium" (eq. 3.6), or
             "local_equilibrium" (uniform shear from the start, eq. 3.12).
-        layers: number of layers; by default 50, 100, 200, ...: 10 a mean free path at the mean density
-            or more. All points of a sweep must need the same, else give them.
+        layers: number of layers; by default 50, 100, 200, ...: 10 a mean free path at the mean
+            density or more. All points of a sweep must need the same, else give them.
     The numbers may be 1-D arrays, for a sweep. Raises ValueError for values outside these.
 
     The time step follows the temperature averaged over the particles, as in the paper.

@@ -41,15 +41,18 @@ def _record(scene, n_particles=1000, steps=4):
     return start, after, record
 
 
-@pytest.mark.parametrize("alpha", [1.0, 0.7])
-def test_momentum_and_energy_come_from_the_walls(alpha):
+@pytest.mark.parametrize(("alpha", "force"), [(1.0, 0.0), (0.7, 0.0), (0.7, 0.4)])
+def test_momentum_and_energy_come_from_the_walls(alpha, force):
     """What the gas has more is what they gave, less what collisions lost: exact, with gravity.
+
+    And what the force gave: momentum N f t.
 
     Single precision of sums over a thousand particles of energy one: 1e-6 of a thousand, a few
     times for a hundred sums.
     """
     gravity = 0.3
-    scene = CouetteFlow(InelasticHardSpheres(alpha), 2.0, 0.5, 0.6, gravity, 2.0, layers=10)
+    numbers = (0.5, 0.6, gravity, 2.0, force)
+    scene = CouetteFlow(InelasticHardSpheres(alpha), 2.0, *numbers, layers=10)
     start, after, record = _record(scene)
     done = record.exchange
 
@@ -61,7 +64,11 @@ def test_momentum_and_energy_come_from_the_walls(alpha):
         return total(kinetic) + gravity * total(state.position)
 
     pushed = total(after.velocity[0]) - total(start.velocity[0])
-    assert pushed == pytest.approx(float(done.lower_push + done.upper_push), abs=0.01)
+    given = 1000 * force * float(record.elapsed)
+    assert pushed == pytest.approx(float(done.lower_push + done.upper_push) + given, abs=0.01)
+    if force:
+        assert given > 100.0
+        return  # its work depends on every particle's way
     gained = energy(after) - energy(start)
     given = float(done.lower_energy + done.upper_energy)
     assert gained == pytest.approx(given - float(record.tally.energy_lost), abs=0.02)
@@ -120,6 +127,41 @@ def test_shear_stress_of_hard_spheres_at_one_mean_free_path():
     # slip and slope make up the difference of the walls, by definition
     slip = value["slip_lower_wall"] + value["slip_upper_wall"]
     assert slip + value["shear_rate"] * length == pytest.approx(motion, rel=1e-9)
+
+
+def test_poiseuille_flow():
+    """Mean velocity of L = 4 as published for hard spheres, its stress, and its work.
+
+    Hadjiconstantinou, Phys. Fluids 15, 2352 (2003): u = (f L²/2η)(1/6 + 1.11 Kn + 0.62 Kn²) with
+    Kn = λ0/L and η = 0.5628, the limit of weak forces, to about 1%. Errors of 1%. Both walls hold
+    half of the force, and the work of the force leaves as heat.
+    """
+    force, length = 0.03, 4.0
+    scene = CouetteFlow(SPHERES, 0.0, length=length, force=force, layers=32)
+    assert scene.ends() == ("mean_velocity",)
+    value, error = observed(scene, 200, 40, time_step=0.1, seed=5, steps=4, **SIZES)
+    kn = 1.0 / length
+    known = force * length**2 / 2.0 / 0.5628 * (1.0 / 6.0 + 1.11 * kn + 0.62 * kn**2)
+    assert error["mean_velocity"] < 0.012 * known
+    assert abs(value["mean_velocity"] - known) < 3.5 * error["mean_velocity"] + 0.01 * known
+    for side, sign in (("lower", 1), ("upper", -1)):
+        name = f"shear_stress_{side}_wall"
+        assert error[name] < 0.03 * force * length
+        assert abs(value[name] - sign * force * length / 2.0) < 4.0 * error[name]
+    heat = value["heat_flux_upper_wall"] - value["heat_flux_lower_wall"]
+    spread = np.hypot(error["heat_flux_upper_wall"], error["heat_flux_lower_wall"])
+    assert value["force_work"] == pytest.approx(force * length * value["mean_velocity"], rel=1e-9)
+    assert abs(heat - value["force_work"]) < 4.0 * np.hypot(spread, error["force_work"])
+
+
+def test_a_run_ends_by_what_flows():
+    """Stress, particles, or heat; points that differ are told."""
+    spheres, granular = SPHERES, InelasticHardSpheres(0.9)
+    assert CouetteFlow(spheres, 0.5, force=0.1).ends() == ("shear_stress",)
+    assert CouetteFlow(granular, 0.0).ends() == ("dissipation",)
+    assert CouetteFlow(spheres, 0.0, 0.5).ends() == ("heat_flux_lower_wall",)
+    with pytest.raises(ValueError, match="dissipation or shear_stress: say which as observable"):
+        run(CouetteFlow(granular, [0.0, 0.5], layers=8), n_particles=500, progress=False)
 
 
 def test_granular_gas_between_walls_is_fed_by_them():
