@@ -49,7 +49,7 @@ class FourierFlow(AbstractWalled):
         length: L in λ0, in (0, 1000].
         wall: "maxwell" (type I) or "bgk" (type II: the emitted particles come from a gas that
             conducts heat, eq. 18).
-        layers: number of layers; by default 100, 200, 400, ...: so many that none is wider than half
+        layers: number of layers; by default 100, 200, 400, ...: none is wider than half
             a mean free path where the gas is densest. All points of a sweep must need the same,
             else give them.
     Numbers or, for a sweep, 1-D arrays. Raises ValueError for values outside these, and before a
