@@ -66,7 +66,9 @@ def cases() -> dict[str, Case]:
             {"collisions": 4000},
             theory={"a2": boltzmann.navier_stokes(0.5).a2},
         ),
-        "white-noise": Case(lambda: WhiteNoiseThermostat(GAS, 0.1), 0.5, {"collisions": 4000}),
+        "white-noise": Case(
+            lambda: WhiteNoiseThermostat(InelasticHardSpheres(0.4), 0.1), 0.05, {"collisions": 4000}
+        ),
         "heat-flux": Case(lambda: HeatFluxForce(GAS, 0.2), 2e-2, {"collisions": 4000}),
         "navier-stokes": Case(
             lambda: NavierStokes(GAS),

@@ -39,9 +39,9 @@ class Limits:
                 check.scalar(name, value, 0.0, np.inf, high_included=False)
         self.duration, self.collisions, self.records = duration, collisions, records
         self.budget = float(budget)
-        self.observables = _names(scenes, observable)
-        self.rtol = _shares(scene.default_rtol if rtol is None else rtol, self.observables)
         self.fixed = duration is not None or collisions is not None
+        self.observables = _names(scenes[:1] if self.fixed else scenes, observable)
+        self.rtol = _shares(scene.default_rtol if rtol is None else rtol, self.observables)
         self.monitored = scene.monitored
         self.approaches = [s.approach(options) if s.has_steady_state() else UNKNOWN for s in scenes]
         without = [scene for scene in scenes if not scene.has_steady_state()]

@@ -7,6 +7,7 @@ scene, add what is its own: theory beside the values, panels that belong togethe
 from . import (
     calibration,
     cooling_disks,
+    couette_flow,
     fourier_flow,
     generic,
     heat_flux_force,
@@ -21,6 +22,7 @@ from .page import Page, as_html, as_text
 _SCENES = {
     "Calibration": calibration,
     "CoolingDisks": cooling_disks,
+    "CouetteFlow": couette_flow,
     "FourierFlow": fourier_flow,
     "HeatFluxForce": heat_flux_force,
     "HomogeneousCooling": homogeneous_cooling,

@@ -18,10 +18,22 @@ SYMBOLS = {
     "rate_factor": "β",
     "drag_factor": "d",
     "kick": "ε",
+    "wall_velocity": "U",
+    "accommodation": "χ",
+    "force": "f",
+    "noise": "ξ²",
 }
 """Of the numbers of jdsmc's own scenes and gases; others are called by their names."""
 
-UNITS = {"shear_rate": "1/τ0", "gravity": "v0²/λ0", "length": "λ0", "kick": "1/v0"}
+UNITS = {
+    "shear_rate": "1/τ0",
+    "gravity": "v0²/λ0",
+    "length": "λ0",
+    "kick": "1/v0",
+    "wall_velocity": "v0",
+    "force": "v0²/λ0",
+    "noise": "v0²/τ0",
+}
 """Of the same numbers."""
 
 GASES = {

@@ -16,6 +16,7 @@ from jdsmc import InelasticHardSpheres, views
 from jdsmc.results import join_gases
 from jdsmc.scenarios import (
     AbstractHomogeneous,
+    CouetteFlow,
     FourierFlow,
     HeatFluxForce,
     HomogeneousCooling,
@@ -240,6 +241,18 @@ def test_fourier():
     assert "profile along z" in table and "n̄ m v0³" in table
     figure = check_picture(sweep.at(gravity=0.0))
     assert {"at the hot wall", "$P_{zz}$"} <= labels(figure)
+
+
+def test_flow_between_walls():
+    """Walls are marked; stresses against time, or what flows against what was swept."""
+    scene = CouetteFlow(InelasticHardSpheres(1.0), [0.5, 1.0], length=2.0, layers=10)
+    sweep = jdsmc.run(scene, rtol=0.9, **TINY)
+    figure = check_picture(sweep)
+    assert "walls" in labels(figure) and "U (v0)" in {p.get_xlabel() for p in figure.axes}
+    one = sweep.at(wall_velocity=0.5)
+    assert {"at the lower wall", "mean over the slab"} <= labels(check_picture(one))
+    # elastic collisions lose nothing, whatever their roundings add up to
+    assert str(one["dissipation"]) == "0"
 
 
 def test_slab():
