@@ -68,10 +68,8 @@ class Engine:
         first = jnp.uint32(self.chunks * self.options.records)
 
         def work(number: int):
-            state, output = _advance(
-                *(self._scenes[number], self._keys[number], self.states[number]),
-                *(first, self.options, self.sampler),
-            )
+            kept = self._scenes[number], self._keys[number], first
+            state, output = _advance(kept, self.states[number], self.options, self.sampler)
             return state, jax.tree.map(lambda x: np.asarray(x, dtype=float), output)
 
         done = self._share(work)
@@ -82,15 +80,16 @@ class Engine:
         return record, sample
 
     def all_states(self) -> list:
-        """The states of all groups, of other processes too, as NumPy arrays."""
-        return hosts.everywhere([jax.tree.map(np.asarray, one) for one in self.states], self.parts)
+        """The states of all groups, of other processes too, as NumPy arrays (copies)."""
+        return hosts.everywhere([jax.tree.map(np.array, one) for one in self.states], self.parts)
 
     def take(self, states: list, chunks: int) -> None:
         """Go on from these states of all groups, after so many chunks."""
         states = [states[number] for number in hosts.own(self.parts)]
         devices = [jax.tree.leaves(keys)[0].device for keys in self._keys]
         placed = zip(states, devices, strict=True)
-        self.states = [jax.device_put(state, device) for state, device in placed]
+        own = [(jax.tree.map(np.array, state), device) for state, device in placed]
+        self.states = [jax.device_put(state, device) for state, device in own]
         self.chunks = int(chunks)
 
     def _share(self, work) -> list:
@@ -105,9 +104,13 @@ def _start(scene, keys, options: Options):
     return _each(lambda s, k: s.initial(k, options), scene, keys)
 
 
-@eqx.filter_jit
-def _advance(scene, keys, states, first_record, options: Options, sampler: Sampler | None):
-    """One chunk for every gas: records are (gases, records, ...), samples (gases, ...)."""
+@eqx.filter_jit(donate="all-except-first")
+def _advance(kept, states, options: Options, sampler: Sampler | None):
+    """One chunk for every gas: records are (gases, records, ...), samples (gases, ...).
+
+    The states are overwritten: two copies of a gas would be half of all memory.
+    """
+    scene, keys, first_record = kept
 
     def one_gas(scene, key, state):
         key = random.fold_in(key, 1)
