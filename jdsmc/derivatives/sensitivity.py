@@ -19,8 +19,8 @@ def sensitivity(
         options: as of `jdsmc.run`.
     Returns: `s["shear_stress"]["restitution"]` with `.value`, `.error` (one standard error),
     `.truncation` (what trial functions of degrees above 6 are taken to add; in space the change
-    from a fit of degree 2 to one of degree 4) and `.uncertainty`, both together; `s.result` is the run.
-    Formulas: docs/sensitivities.md.
+    from a fit of degree 2 to one of degree 4) and `.uncertainty`, both together; `s.result` is the
+    run. Formulas: docs/sensitivities.md.
     Raises ValueError for what is no number or cannot be had, and what `jdsmc.run` raises.
     """
     if isinstance(scene, AbstractScene) and scene.in_space:
