@@ -118,7 +118,7 @@ def percent(fraction, digits: int = 1) -> str:
 def positive(found: Estimate) -> bool | None:
     """True if a number is above 0 by more than 2 errors, False if below by as much, or None."""
     value, error = (float(part) for part in found)
-    return None if abs(value) <= AGREEMENT * error else value > 0
+    return value > 0 if abs(value) > AGREEMENT * error else None  # None if the error is NaN
 
 
 def all_positive(head: str, numbers: dict[str, Estimate], shown: dict | None = None) -> Finding:

@@ -142,11 +142,10 @@ def simulations(data: Measurements) -> list[str]:
         attrs, root, time = result.attrs, result.steady, result.series["time"].values
         size = f"{attrs['n_particles']} x {attrs['n_realizations']}"
         cells = ["", "", ""]
-        if result.is_steady:
+        if result.is_steady and "collisions" in result.series:
             start = root["steady_from_time"].values
-            spent = (
-                result.series["collisions"].values[..., -1] - root["steady_from_collisions"].values
-            )
+            spent = result.series["collisions"].values[..., -1]
+            spent = spent - root["steady_from_collisions"].values
             cells = [_range(start, ".0f"), _range(spent, ".0f")]
             cells += [_range(root["time_step"].values, ".3f") if "time_step" in root else ""]
         seconds = f"{float(attrs['seconds']):.0f}"
@@ -156,5 +155,6 @@ def simulations(data: Measurements) -> list[str]:
 
 
 def _range(values, digits: str) -> str:
-    low, high = (format(float(one), digits) for one in (values.min(), values.max()))
-    return low if low == high else f"{low} to {high}"
+    known = values[abs(values) >= 0.0]  # not NaN
+    ends = [format(float(one), digits) for one in (known.min(), known.max())] if known.size else []
+    return " to ".join(dict.fromkeys(ends))

@@ -21,9 +21,9 @@ LEFT, RIGHT, FAST_TAIL = (-FARTHEST, -FAR), (FAR, FARTHEST), (3.0, FARTHEST)
 
 
 def share(found: xr.Dataset, name: str, low: float, high: float) -> Estimate:
-    """Integral of a density over the bins between two velocities."""
+    """Integral of a density over the bins between two velocities in which any particle was seen."""
     centres = found["speed_bin" if name == "speed" else "velocity"].values
-    inside = (centres > low) & (centres < high)
+    inside = (centres > low) & (centres < high) & np.isfinite(found[f"{name}_error"].values)
     return total(estimate(found, name)[inside]) * (centres[1] - centres[0])
 
 
