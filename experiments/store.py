@@ -47,7 +47,7 @@ def obtain(case, folder: Path, fresh: bool = False) -> Result:
     print(f"{case.name}: running", flush=True)
     start = time.perf_counter()
     result = case.simulate()
-    if result.attrs["stopped"].startswith("interrupted"):
+    if result.interrupted:
         raise KeyboardInterrupt(result.attrs["stopped"])
     seconds = time.perf_counter() - start
     result.to_xarray().attrs.update(asked, seconds=seconds)

@@ -73,12 +73,23 @@ def parameters(scene) -> dict[str, np.ndarray]:
 
 
 def swept_paths(scene) -> dict[str, np.ndarray]:
-    """The swept numbers by path: those with one axis more than their physics has."""
-    return {
+    """The swept numbers by path: those with one axis more than their physics has.
+
+    ValueError for a value that is there twice: equal points have equal random numbers, and would
+    pass for independent ones.
+    """
+    swept = {
         path: value
         for path, value in numbers(scene).items()
         if value.ndim > facts(scene, path).get("axes", 0)
     }
+    for path, value in swept.items():
+        if len(np.unique(value, axis=0)) < len(value):
+            raise ValueError(
+                f"{path.split('.')[-1]} has a value twice: {value.tolist()}. Points of a sweep "
+                "must differ; for more statistics take n_realizations, or another seed."
+            )
+    return swept
 
 
 def dimensions(scene) -> dict[str, np.ndarray]:

@@ -105,7 +105,7 @@ def run(case: Case, seed: int):
     """A cheap one; or the true one."""
     length: dict[str, Any] = case.longer if seed == TRUTH_SEED else {"rtol": case.rtol}
     result = jdsmc.run(case.make(), seed=seed, progress=False, **(case.sizes or {}), **length)
-    if result.attrs["stopped"].startswith("interrupted"):
+    if result.interrupted:
         raise KeyboardInterrupt
     return result
 

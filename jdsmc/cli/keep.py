@@ -21,6 +21,10 @@ RESULTS = (".h5", ".hdf5", ".nc")
 SPARE_NAMES = 100
 
 
+INTERRUPTED = 130
+"""Exit status after a signal, as shells have it."""
+
+
 def check_files(out: str | None, plot: str | None) -> None:
     """Raise ValueError or OSError, before a run, unless both files can be written."""
     if out is not None:
@@ -49,7 +53,8 @@ def picture_of(file: Path) -> Path:
 def keep(
     results: dict[str, Result], out: str | None, plot: str | None, *, join: bool, spare: str
 ) -> int:
-    """Save, show and draw results by gas; the exit status, 1 if any of that failed.
+    """Save, show and draw results by gas; the exit status: 1 if any of that failed, else 130 if a
+    signal ended a run, so that what follows in a script does not take it for whole.
 
     Of several processes that share a run, the first does it.
 
@@ -74,7 +79,8 @@ def keep(
         failed |= show(result, None if out else Path(f"{spare}{suffix}.h5"))
         if plot is not None:
             failed |= draw(result, extended(plot, suffix))
-    return int(failed)
+    ended = any(one.interrupted for one in results.values())
+    return 1 if failed else INTERRUPTED * ended
 
 
 def save(result: Result, path: Path) -> bool:

@@ -40,8 +40,8 @@ def main(arguments: list[str] | None = None) -> int:
     """Run a command; returns the exit status.
 
     0; 1 for a run that cannot be trusted or a result that cannot be shown; 2, with one sentence,
-    for bad input; 130 after Ctrl-C outside a run. Ctrl-C during a run ends it after the present
-    chunk, and a reader that has seen enough (`jdsmc show f | head`) ends the printing silently.
+    for bad input; 130 after Ctrl-C or SIGTERM, which end a run after the present chunk with what
+    there is. A reader that has seen enough (`jdsmc show f | head`) ends the printing silently.
     """
     never_fail_to_print()
     try:

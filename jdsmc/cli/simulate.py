@@ -55,5 +55,5 @@ def run_all(asked: Asked, results: dict[str, Result], *, count_points: bool) -> 
             if error.result is not None:
                 results[name] = error.result
             raise
-        if results[name].attrs["stopped"].startswith("interrupted"):
+        if results[name].interrupted:
             break

@@ -33,7 +33,9 @@ OBSERVABLES = (
     Observable("wall_work", "work done by the walls, per area and time", "n̄ m v0³"),
     Observable("force_work", "work done by the force, per area and time", "n̄ m v0³"),
     Observable("dissipation", "energy lost in collisions, per area and time", "n̄ m v0³"),
-    Observable("shear_rate", "slope du_x/dz of a line through the middle half", "1/τ0"),
+    Observable(
+        "shear_rate", "slope du_x/dz of a line through the middle half", "1/τ0"
+    ),
     *(
         Observable(
             f"slip_{side}_wall",
@@ -74,11 +76,12 @@ def profiles(means: dict) -> dict:
     }
 
 
-def slip(flow: np.ndarray, difference, length) -> dict:
+def slip(flow: np.ndarray, difference, length, force=0.0) -> dict:
     """Shear rate and slip at the walls, of a straight line through the middle half of the profile.
 
     Arguments: u_x, z along the last axis; the velocity U of the upper wall relative to the lower
-    one, half of it either way; L.
+    one, half of it either way; L; a force along x, under which the profile is no straight line:
+    then all are NaN.
     """
     layers = flow.shape[-1]
     quarter = layers // 4
@@ -86,7 +89,8 @@ def slip(flow: np.ndarray, difference, length) -> dict:
     height = (np.arange(layers)[middle] + 0.5) / layers - 0.5
     part = flow[..., middle]
     centre, spread = np.mean(part, axis=-1), np.sum(height**2)
-    rise = np.sum(height * part, axis=-1) / spread if spread > 0 else np.full_like(centre, np.nan)
+    straight = spread > 0 and force == 0
+    rise = np.sum(height * part, axis=-1) / spread if straight else np.full_like(centre, np.nan)
     half = 0.5 * (difference - rise)
     return {
         "shear_rate": rise / length,

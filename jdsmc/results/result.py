@@ -86,6 +86,11 @@ class Result:
         return len(self) > 0
 
     @property
+    def interrupted(self) -> bool:
+        """True if a signal (Ctrl-C, SIGTERM) ended the run before what was asked."""
+        return str(self.attrs.get("stopped", "")).startswith("interrupted")
+
+    @property
     def attrs(self) -> dict:
         """Parameters, options, seed, versions and how the run ended."""
         return dict(self._tree.attrs)

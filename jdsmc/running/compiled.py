@@ -17,6 +17,10 @@ from .provenance import processor
 VARIABLE = "JDSMC_COMPILATION_CACHE"
 """Environment variable: `off`, or a folder."""
 
+SILENT = (0, 11)
+"""First version of JAX that reads a program of its own without pages of warnings of XLA: with older
+ones (those for Python 3.11) programs are kept only if asked for."""
+
 WORTH_KEEPING = 0.1
 """Seconds of compiling from which on a program is kept (JAX's own default, 1, keeps too few)."""
 
@@ -31,6 +35,8 @@ def keep_programs() -> None:
     file is damaged.
     """
     chosen = os.environ.get(VARIABLE, "")
+    if not chosen and tuple(map(int, jax.__version__.split(".")[:2])) < SILENT:
+        return
     ours = jax.config.jax_compilation_cache_dir is None
     if chosen.lower() == "off" or not ours or not jax.config.jax_enable_compilation_cache:
         return

@@ -8,6 +8,9 @@ from ..scenarios.base import AbstractScene, weighted_means
 from .batch import point_of
 from .growing import Growing
 
+TAIL = 64
+"""Records from the end among which the last common sample is looked for first."""
+
 CLOCKS = ("elapsed", "accepted", "energy_lost", "time", "collisions")
 
 
@@ -168,9 +171,22 @@ class History:
         """Accepted collisions of all gases together."""
         return float(np.sum(self._totals["collisions"])) * self.n_particles if self.length else 0.0
 
-    def mean_time(self) -> np.ndarray:
-        """Time so far (τ0), (points,)."""
-        return np.mean(self._totals["time"], axis=1)
+    def reached(self, clock: str) -> np.ndarray:
+        """The last sample of each point on the common clock of its realizations, (points,).
+
+        Arguments: "time" (τ0) or "collisions" (per particle). Records tell of their starts, and as
+        far as all realizations have come: a series that is to reach a time goes on until this has.
+        """
+        if not self.length:
+            return np.zeros(len(self.scenes))
+        time = self["log_time" if "log_time" in self._columns else "time"]
+        for records in (TAIL, self.length):  # clocks are seldom far apart
+            there = np.mean(time[..., -records:], axis=1) <= np.min(time[..., -1:], axis=1)
+            if np.all(np.any(there, axis=1)):
+                break
+        last = np.maximum(np.sum(there, axis=1) - 1, 0)
+        means = np.mean(self[clock][..., -records:], axis=1)
+        return np.take_along_axis(means, last[:, None], axis=1)[:, 0]
 
     def record_at_collisions(self, point: int, collisions: float) -> int:
         """First record at which every realization has made that many collisions per particle."""

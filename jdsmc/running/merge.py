@@ -29,6 +29,8 @@ def merge(results: Sequence[Result], classes: tuple[type, ...] = ()) -> Result:
     that differ, for the same seed or the same point twice, for parts of a sweep, and where some
     runs were steady and others not.
     """
+    if isinstance(results, Result):
+        raise TypeError("merge takes results as a list: merge([first, second]).")
     results = list(results)
     for one in results:
         if not isinstance(one, Result):

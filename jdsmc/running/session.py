@@ -245,9 +245,9 @@ class Session:
         """Share of the work done, as far as it can be known."""
         limits = self.limits
         if limits.duration is not None:
-            return min(1.0, float(np.min(self.history.mean_time())) / limits.duration)
+            return min(1.0, float(np.min(self.history.reached("time"))) / limits.duration)
         if limits.collisions is not None:
-            return min(1.0, self.spent / limits.collisions)
+            return min(1.0, float(np.min(self.history.reached("collisions"))) / limits.collisions)
         done = self.spent / limits.budget
         if limits.records is not None:
             done = self.history.length / limits.records

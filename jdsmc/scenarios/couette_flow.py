@@ -117,7 +117,9 @@ class CouetteFlow(AbstractWalled):
             return ("shear_stress",)
         if self.force != 0:
             return ("mean_velocity",)
-        return ("dissipation",) if loses_energy(self.gas) else ("heat_flux_lower_wall",)
+        if loses_energy(self.gas):
+            return ("dissipation",)
+        return ("heat_flux_lower_wall",) if self.cold_temperature < 1 else ("temperature",)
 
     def approach(self, options: Options) -> Approach:
         """Diffusion of momentum and heat across the slab."""
@@ -215,7 +217,7 @@ class CouetteFlow(AbstractWalled):
         return {
             **whole,
             **found,
-            **couette.slip(found["velocity_x"], self.wall_velocity, self.length),
+            **couette.slip(found["velocity_x"], self.wall_velocity, self.length, self.force),
             "force_work": self.force * means["mean_velocity"] * self.length,
             "dissipation": self.length * lost,
         }

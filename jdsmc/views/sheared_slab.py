@@ -94,6 +94,8 @@ def _profiles_in_time(panels, result) -> None:
         here = series.isel(sample=sample)
         label = f"s = {float(here['collisions']):.2g}"
         _draw_profiles(panels, result, here, label, f"C{number}")
+    if result.is_steady:
+        _draw_profiles(panels, result, result.steady, "steady", "k")
     _uniform_lines(panels, series)
 
 

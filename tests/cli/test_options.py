@@ -46,7 +46,7 @@ def test_every_option_reaches_the_run(asked, status):
         ("heat-flux", "HeatFluxForce", "InelasticHardSpheres", {"field": 0.025}),
         (
             *("fourier", "FourierFlow", "InelasticHardSpheres"),
-            {"cold_temperature": 0.05, "gravity": 0.0, "length": 10.0, "layers": 88},
+            {"cold_temperature": 0.05, "gravity": 0.0, "length": 10.0, "layers": 100},
         ),
         (
             *("sheared-slab", "ShearedSlab", "InelasticHardSpheres"),
