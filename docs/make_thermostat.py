@@ -49,7 +49,7 @@ def cumulant() -> str:
     """Rows: α, a2, published, Boltzmann equation."""
     rows = []
     for alpha in CUMULANTS:
-        value, error = heated(alpha, 0.005)["a2"]
+        value, error = heated(alpha, 0.01)["a2"]
         theory = solve_heated(alpha, 16).moment(2) * 4.0 / 15.0 - 1.0
         parts = (f"{alpha:g}", format_estimate(value, error), f"{published(alpha):.5f}")
         rows.append(f"| {' | '.join(parts)} | {theory:.5f} |")
@@ -76,7 +76,7 @@ def tail() -> str:
     heads = [f"C = {a:g} to {b:g}" for a, b in borders]
     rows = [f"| α | {' | '.join(heads)} | A |", "|---" * (len(heads) + 2) + "|"]
     for alpha in TAILS:
-        result = heated(alpha, 0.0025)
+        result = heated(alpha, 0.004)
         temperature = float(result["temperature"].value)
         cooling = NOISE / INITIAL_TEMPERATURE / temperature**1.5
         published_slope = 2.0 / 3.0 * sqrt(4.0 / (sqrt(2.0) * cooling))

@@ -33,9 +33,7 @@ OBSERVABLES = (
     Observable("wall_work", "work done by the walls, per area and time", "n̄ m v0³"),
     Observable("force_work", "work done by the force, per area and time", "n̄ m v0³"),
     Observable("dissipation", "energy lost in collisions, per area and time", "n̄ m v0³"),
-    Observable(
-        "shear_rate", "slope du_x/dz of a line through the middle half", "1/τ0"
-    ),
+    Observable("shear_rate", "slope du_x/dz of a line through the middle half", "1/τ0"),
     *(
         Observable(
             f"slip_{side}_wall",

@@ -157,9 +157,8 @@ class Result:
         else:
             found = np.flatnonzero(values == value)
         if not len(found):
-            raise KeyError(
-                f"{name} = {value} was not run; there are {', '.join(map(str, values))}."
-            )
+            there = [f"{one:.9g}" if values.dtype.kind == "f" else str(one) for one in values]
+            raise KeyError(f"{name} = {value} was not run; there are {', '.join(there)}.")
         return int(found[0])
 
     def to_xarray(self) -> xr.DataTree:

@@ -58,6 +58,11 @@ class Limits:
         return ", ".join(self.observables)
 
     @property
+    def verb(self) -> str:
+        """That goes with them."""
+        return "is" if len(self.observables) == 1 else "are"
+
+    @property
     def asked(self) -> str:
         """The precision that is asked of each, or once if of all the same."""
         return ", ".join(f"{share:g}" for share in dict.fromkeys(self.rtol.values()))

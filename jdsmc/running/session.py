@@ -141,11 +141,13 @@ class Session:
                 return "the asked time was simulated"
             return "" if limits.collisions is None else self._hardly_collides(limits.collisions)
         if due and self._precise() and self.is_settled() and self._precise():
-            return f"{limits.named} is known to {self.precision:.2g} (asked {limits.asked})"
+            return (
+                f"{limits.named} {limits.verb} known to {self.precision:.2g} (asked {limits.asked})"
+            )
         if limits.records is not None and self.history.length >= limits.records:
             self._look()
             return (
-                f"{limits.records} records were made: {limits.named} is known to "
+                f"{limits.records} records were made: {limits.named} {limits.verb} known to "
                 f"{self.precision:.2g}"
             )
         if self.spent >= limits.budget:
@@ -174,8 +176,8 @@ class Session:
         if np.isfinite(self.precision):
             every = "" if self.correlated else ", and every observable for a slower change"
             return (
-                f"the budget of {budget} ended: {limits.named} is known to {self.precision:.2g}, "
-                f"asked {limits.asked}; tested were {drift}{every}"
+                f"the budget of {budget} ended: {limits.named} {limits.verb} known to "
+                f"{self.precision:.2g}, asked {limits.asked}; tested were {drift}{every}"
             )
         self.failed = True
         if not self.tracker.all_measuring:

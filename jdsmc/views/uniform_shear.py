@@ -115,7 +115,7 @@ def _model_curves(panels, result) -> None:
     panels[1].plot(s, model.normal_stress_xy, "k:", lw=1.2)
 
 
-def _model_velocities(panels, result, here: xr.Dataset) -> None:
+def _model_velocities(panels, result, here: xr.Dataset, color="k", text="BGK model") -> None:
     """The model's steady distributions at one point."""
     if not model_at(result, here):
         return
@@ -123,10 +123,10 @@ def _model_velocities(panels, result, here: xr.Dataset) -> None:
     along_x, speed = panels
     low, high = along_x.get_xlim()
     c = np.linspace(low, high, 201)
-    text = "BGK model"
-    along_x.plot(c, bgk_shear_flow.marginal_x(alpha, c), "k:", lw=1.2, label=text)
+    style = {"color": color, "ls": ":", "lw": 1.2, "label": text or None}
+    along_x.plot(c, bgk_shear_flow.marginal_x(alpha, c), **style)
     c = np.linspace(0.05, speed.get_xlim()[1], 60)
-    speed.plot(c, bgk_shear_flow.speed_distribution(alpha, c), "k:", lw=1.2, label=text)
+    speed.plot(c, bgk_shear_flow.speed_distribution(alpha, c), **style)
 
 
 def _draw_sweep(result, x: str):
@@ -148,6 +148,7 @@ def _draw_sweep(result, x: str):
     if with_velocities:
         velocities.draw(panels[-2], result, "velocity")
         velocities.draw(panels[-1], result, "speed_bin")
-        first = pictures.drawn(result.distribution, dims)[0]
-        _model_velocities(panels[-2:], result, result.distribution.isel(first))
+        for number, point in enumerate(pictures.drawn(result.distribution, dims)):
+            here, text = result.distribution.isel(point), "" if number else "BGK model"
+            _model_velocities(panels[-2:], result, here, f"C{number}", text)
     return pictures.finish(figure, panels, common.title(result, "Uniform shear flow"))
