@@ -58,8 +58,8 @@ and Δκ* at the paper's point z0 from a sweep over gravity.""",
 Measured against published values in [couette_flow.md](couette_flow.md). `z` is the centre of a
 layer in λ0, or a share of the length if that is swept. Steady balances, exact:
 `heat_flux_lower_wall` - `heat_flux_upper_wall` + `wall_work` + `force_work` = `dissipation`;
-without a force, one shear stress in the slab and at both walls, and with it f L n̄ between the walls. With
-`wall_velocity` = 0 it is a Fourier flow that may lose energy, or Poiseuille flow under a `force`. A
+without a force, one shear stress in the slab and at both walls, and with it f L n̄ between the
+walls. With `wall_velocity` = 0 it is a Fourier flow that may lose energy, or Poiseuille flow under a `force`. A
 run ends by `shear_stress` between walls in motion, else by `mean_velocity` under a force, else by
 `dissipation` or the heat flux at the lower wall.""",
     "WhiteNoiseThermostat": """\
