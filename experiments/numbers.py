@@ -55,13 +55,16 @@ def over_parts(values: np.ndarray, function: Callable = lambda mean: mean) -> Es
 class Fit:
     """Weighted least squares.
 
-    Arguments: `columns`, what each number depends on linearly, (numbers, terms); the numbers.
+    Arguments: `columns`, what each number depends on linearly, (numbers, terms); the numbers, of
+    which NaN (states that had not settled) is left out.
     Attributes: `terms`, the coefficients; `misfit`, χ²/ν (NaN without freedom).
     """
 
     def __init__(self, columns, numbers: Sequence[Estimate]):
-        columns = np.asarray(columns, float)
-        value, error = (np.array([float(one.value) for one in numbers]), _errors(numbers))
+        value, error = np.array([[float(one.value), float(one.error)] for one in numbers]).T
+        there = np.isfinite(value + error)
+        columns, value, error = np.asarray(columns, float)[there], value[there], error[there]
+        numbers = [one for one, known in zip(numbers, there, strict=True) if known]
         inverse = np.linalg.pinv(columns / error[:, None]) / error
         self.terms = [
             combine(lambda *values, row=row: row @ np.array(values), *numbers) for row in inverse
@@ -74,10 +77,6 @@ class Fit:
     def at(self, weights) -> Estimate:
         """The fit for a row of columns."""
         return combine(lambda *terms: np.dot(weights, terms), *self.terms)
-
-
-def _errors(numbers: Sequence[Estimate]) -> np.ndarray:
-    return np.array([float(one.error) for one in numbers])
 
 
 class Even(Fit):

@@ -19,6 +19,8 @@ def test_a_fit_finds_the_limit():
     constant = Fit(np.ones((4, 1)), numbers)
     assert float(constant.terms[0].error) == pytest.approx(np.sum(error**-2.0) ** -0.5)
     assert np.isnan(Even(x[:3], numbers[:3], (1, 2)).misfit)
+    unsettled = Even([*x, 9.0], [*numbers, Estimate(np.nan, np.nan)], (1, 2))
+    assert float(unsettled.limit.value) == pytest.approx(float(found.limit.value), rel=1e-12)
 
 
 def test_terms_of_a_fit_are_correlated():
