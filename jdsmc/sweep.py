@@ -84,10 +84,12 @@ def swept_paths(scene) -> dict[str, np.ndarray]:
         if value.ndim > facts(scene, path).get("axes", 0)
     }
     for path, value in swept.items():
-        if len(np.unique(value, axis=0)) < len(value):
+        different, often = np.unique(value, axis=0, return_counts=True)
+        if np.any(often > 1):
+            twice = different[np.argmax(often)]
             raise ValueError(
-                f"{path.split('.')[-1]} has a value twice: {value.tolist()}. Points of a sweep "
-                "must differ; for more statistics take n_realizations, or another seed."
+                f"{path.split('.')[-1]} = {twice} is there twice; points of a sweep must differ: "
+                "for more statistics take n_realizations, or another seed."
             )
     return swept
 

@@ -12,7 +12,7 @@ most of whose resistance is elsewhere."""
 FEWEST = 100
 """Layers that any slab between walls has, to draw its profiles; those of the paper."""
 
-RUNGS = 50 * 2 ** np.arange(20)
+RUNGS = 50 * 2 ** np.arange(50)
 """Numbers of layers to choose from. Few, so that neighbouring points of a sweep need the same: a
 point has the layers, and so the numbers, that it has in a run of its own."""
 
@@ -41,7 +41,10 @@ def common_layers(wanted) -> int:
     Raises ValueError if points need different ones: then they would not be the points they are in
     runs of their own.
     """
-    rungs = RUNGS[np.searchsorted(RUNGS, np.ravel(wanted))]
+    wanted = np.ravel(wanted)
+    if not wanted.size:  # of an empty array, which is refused when the scene checks its fields
+        return FEWEST
+    rungs = RUNGS[np.searchsorted(RUNGS, wanted)]
     least, most = int(np.min(rungs)), int(np.max(rungs))
     if least < most:
         raise ValueError(
