@@ -24,7 +24,7 @@ SCENES = {
     "sheared slab": ShearedSlab(InelasticHardSpheres(0.7), 4.0),
     "Fourier flow": FourierFlow(InelasticHardSpheres(1.0), 0.5, length=10.0),
 }
-SIZES = (10_000, 1_250_000, 12_500_000)
+SIZES = (10_000, 125_000, 1_250_000)
 """Particles of a realization; the first tells what a process needs anyway."""
 
 
