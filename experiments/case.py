@@ -60,7 +60,7 @@ class Case:
         options = {"seed": zlib.crc32(self.name.encode()), "progress": False, **self.options}
         while True:
             result = self._once(options)
-            interrupted = result.attrs["stopped"].startswith("interrupted")
+            interrupted = result.interrupted
             if result.is_steady or interrupted or not self.steady:
                 return result
             clock = next(name for name in ("duration", "collisions") if name in options)

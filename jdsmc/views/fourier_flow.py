@@ -54,7 +54,7 @@ def draw(result):
     for panel, name in zip(panels, PROFILES, strict=False):
         pictures.profile(panel, steady, dims, name)
         panel.set_xlabel("z (λ0), cold wall at 0")
-    _walls(panels[0], result, dims)
+    pictures.walls(panels[0], result, dims, "cold_temperature", lambda cold: [cold, 1.0])
     pictures.readable_log(panels[1], steady["density"].values)
     pictures.profile(panels[3], steady, dims, "pressure_zz", label=False, ls="--")
     panels[3].set_xlabel("z (λ0), cold wall at 0")
@@ -66,23 +66,8 @@ def draw(result):
         pictures.against_sweep(panels[5], steady, dims, x, "mean_heat_flux")
         _conductivity(panels[6], steady, dims, x)
     else:
-        _fluxes(panels[5], result)
+        pictures.together(panels[5], result, FLUXES, FLUX_NAMES)
     return pictures.finish(figure, panels, common.title(result, "Fourier flow"))
-
-
-def _walls(panel, result, dims) -> None:
-    """Crosses at the temperatures of the walls."""
-    steady = result.steady
-    for number, point in enumerate(pictures.drawn(steady, dims)):
-        here = steady.isel(point)
-        cold = float(common.parameter(result, here, "cold_temperature"))
-        length = float(common.parameter(result, here, "length"))
-        if steady["z"].attrs.get("units") == "share of the whole":
-            length = 1.0
-        own = "cold_temperature" in dims or "length" in dims
-        style = {"color": f"C{number}" if own else "k", "ms": 7, "ls": "none", "clip_on": False}
-        text = None if number else "walls"
-        panel.plot([0.0, length], [cold, 1.0], marker="x", label=text, zorder=5, **style)
 
 
 def _conductivity(panel, steady: xr.Dataset, dims, x: str) -> None:
@@ -98,13 +83,3 @@ def _conductivity(panel, steady: xr.Dataset, dims, x: str) -> None:
         style = {} if others else {"color": "k"}
         pictures.bars(panel, values, value, error, number, common.label(steady, point), **style)
     panel.set(xlabel=common.with_unit(steady, x), ylabel="κ* halfway, in mean free paths")
-
-
-def _fluxes(panel, result) -> None:
-    """Fluxes against time: they agree once the gas is steady."""
-    series = result.series
-    for number, (name, text) in enumerate(zip(FLUXES, FLUX_NAMES, strict=True)):
-        time, value, error = (series[key].values for key in ("time", name, f"{name}_error"))
-        pictures.curve(panel, time, value, error, text, color=f"C{number}", lw=0.9)
-    panel.set_xlabel(common.with_unit(series, "time"))
-    panel.set_ylabel(common.with_unit(series, "mean_heat_flux"))

@@ -120,6 +120,32 @@ def against_time(panel, result, name: str, clock: str = "time", log: bool = Fals
         limit(panel, *(np.concatenate(column) for column in zip(*seen, strict=True)))
 
 
+def together(panel, result, names, texts, words: str = "") -> None:
+    """Several observables of one gas against time, `words` for what they have in common."""
+    series = result.series
+    for number, (name, text) in enumerate(zip(names, texts, strict=True)):
+        time, value, error = (series[key].values for key in ("time", name, f"{name}_error"))
+        curve(panel, time, value, error, text, color=f"C{number}", lw=0.9)
+    panel.set_xlabel(common.with_unit(series, "time"))
+    panel.set_ylabel(common.with_unit(series, names[0], words))
+
+
+def walls(panel, result, dims, number_name: str, ends) -> None:
+    """Crosses at what the walls at 0 and L have: `ends` of a number of the scene, point by point."""
+    steady = result.steady
+    for number, point in enumerate(drawn(steady, dims)):
+        here = steady.isel(point)
+        value, length = (
+            float(common.parameter(result, here, name)) for name in (number_name, "length")
+        )
+        if steady["z"].attrs.get("units") == "share of the whole":
+            length = 1.0
+        own = number_name in dims or "length" in dims
+        style = {"color": f"C{number}" if own else "k", "ms": 7, "ls": "none", "clip_on": False}
+        text = None if number else "walls"
+        panel.plot([0.0, length], ends(value), marker="x", label=text, zorder=5, **style)
+
+
 def profile(panel, data: xr.Dataset, dims, name: str, label: bool = True, **style) -> None:
     """A profile at a few points."""
     (along,) = common.own_dims(data, name, dims)

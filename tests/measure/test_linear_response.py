@@ -74,10 +74,9 @@ def test_inelastic_gases():
 
 @pytest.mark.slow
 def test_chapman_enskog_to_a_thousandth():
-    """Elastic spheres: κ = κ' = 1.025218 and η = 1.016034 of their first approximations.
+    """Elastic spheres: κ = 1.025218 and η = 1.016034 of their first approximations, to 0.1%.
 
-    Chapman and Cowling's limits of all orders. Errors of 0.1%; what the fourth function adds is
-    counted in (it is below 1e-5 in theory).
+    Chapman and Cowling's limits of all orders.
     """
     found = linear_response(InelasticHardSpheres(1.0), rtol=1e-3, progress=False)
     for name, known in (("conductivity", 1.025218), ("viscosity", 1.016034)):
