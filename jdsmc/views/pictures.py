@@ -131,7 +131,7 @@ def together(panel, result, names, texts, words: str = "") -> None:
 
 
 def walls(panel, result, dims, number_name: str, ends) -> None:
-    """Crosses at what the walls at 0 and L have: `ends` of a number of the scene, point by point."""
+    """Crosses at what the walls at 0 and L have: `ends` of a number of the scene at each point."""
     steady = result.steady
     for number, point in enumerate(drawn(steady, dims)):
         here = steady.isel(point)
