@@ -7,7 +7,11 @@ from .sampling import Sampler
 MOST, MOST_RECORDS = 256, 1024
 """Blocks kept of chunks, and of records; beyond, neighbours are added up."""
 
-POINTWISE = ("moments", "second", "source", "response", "cubed", "cubed_response", "tangents")
+POINTWISE = {
+    **{"moments": 1, "second": 2, "source": 1, "response": 2},
+    **{"cubed": 0, "cubed_response": 1, "tangents": 2},
+}
+"""What is averaged, and how many axes each has of its own, which come last."""
 
 
 class Samples:
@@ -130,3 +134,12 @@ def absolute(sampler: Sampler, sums: dict) -> dict[str, np.ndarray]:
         name: sums[name] * root.reshape(root.shape + (1,) * power.ndim) ** power
         for name, power in powers.items()
     }
+
+
+def leading_last(averages: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The same averages with their own axes first."""
+    found = {}
+    for name, values in averages.items():
+        further = range(np.ndim(values) - POINTWISE[name])
+        found[name] = np.moveaxis(values, further, [-1 - k for k in reversed(further)])
+    return found

@@ -88,13 +88,20 @@ class Sampler(NamedTuple):
         before = both(symmetry, basis, *pair)
         per_particle = pairs_per_particle(velocity[0].size)
 
-        def changes(gas):
-            """Rate times change of every φ_k, and the rate: arrays of pairs."""
+        arrays, rest = eqx.partition(gas, eqx.is_array)
+
+        def changes(arrays):
+            """Rate times change of every φ_k, and the rate: (trial + 1, pairs)."""
+            gas = eqx.combine(arrays, rest)
             rate = gas.rate(speed * reference) * jnp.ones_like(speed) * per_particle
             then = after(symmetry, basis, key, gas, pair, reference)
-            return [*(rate * (a - b) for a, b in zip(then, before, strict=True)), rate]
+            each = (rate * (a - b) for a, b in zip(then, before, strict=True))
+            return _matrix([*each, rate])
 
-        rates, sums = _matrix(changes(gas)), _matrix(before)
+        # the changes are worked out once, for all tangents too
+        rates, along = jax.linearize(changes, arrays)
+        found = [_average(along(tangent(arrays, path))) for path in self.paths]
+        sums = _matrix(before)
         cubed = (speed * speed * speed).reshape(1, -1)
         pairs = speed.size
         return {
@@ -102,19 +109,8 @@ class Sampler(NamedTuple):
             "response": rates @ sums.T / pairs,
             "cubed": _average(cubed)[0],
             "cubed_response": (cubed @ sums.T / pairs)[0],
-            "tangents": self._tangents(
-                lambda gas: jnp.stack([jnp.mean(x) for x in changes(gas)]), gas
-            ),
+            "tangents": jnp.stack(found) if found else jnp.zeros((0, len(basis) + 1)),
         }
-
-    def _tangents(self, source, gas):
-        """Derivatives of the source with respect to each number of the gas."""
-        arrays, rest = eqx.partition(gas, eqx.is_array)
-        found = [
-            jax.jvp(lambda a: source(eqx.combine(a, rest)), (arrays,), (tangent(arrays, path),))[1]
-            for path in self.paths
-        ]
-        return jnp.stack(found) if found else jnp.zeros((0, len(self.basis) + 1))
 
 
 def _matrix(values: list) -> Any:

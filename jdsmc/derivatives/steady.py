@@ -8,9 +8,9 @@ from ..scenarios.base import AbstractScene, weighted_means
 from ..scenarios.homogeneous import AbstractHomogeneous
 from ..stats import BLOCKS, jackknife, larger_errors
 from .controls import controlled
-from .observed import reported_names, slopes, state_of
-from .response import Facts, Generator
-from .samples import Samples
+from .observed import State, reported_names, slopes, state_of
+from .response import Change, Facts, Generator
+from .samples import Samples, leading_last
 
 LOWER = 2
 """Degrees between the trial functions and those of the comparison that tells the truncation."""
@@ -38,24 +38,19 @@ def steady_derivatives(
     if not isinstance(scene, AbstractHomogeneous) or not samples.has(first):
         return None
     means, weights, _ = samples.point(point, first)
-    degree = samples.sampler.degree
     if facts.stationary:
         means = controlled(scene, samples.sampler, means, weights)
 
-    def found(averages: dict, at: int) -> dict[str, np.ndarray]:
-        generator = Generator(scene, samples.sampler, averages, at, facts)
-        return _all_slopes(scene, generator, paths)
-
     def extrapolated(averages: dict) -> dict[str, np.ndarray]:
-        higher, lower = found(averages, degree), found(averages, degree - LOWER)
-        return {name: x + AHEAD * (x - lower[name]) for name, x in higher.items()}
+        return _all_slopes(scene, samples, averages, paths, facts, AHEAD)
 
-    value, error, left_out = jackknife(weighted_means(means, weights), extrapolated, axis=0)
-    whole = {name: np.mean(x, axis=0) for name, x in weighted_means(means, weights).items()}
-    added = found(whole, degree)
+    own = weighted_means(means, weights)
+    value, error, left_out = jackknife(own, extrapolated, axis=0, leading=True)
+    whole = {name: np.mean(x, axis=0) for name, x in own.items()}
+    added = _all_slopes(scene, samples, whole, paths, facts, 0.0)
     if weights.shape[1] >= BLOCKS:
         blocks = _in_blocks(means, weights)
-        _, of_blocks, _ = jackknife(blocks, extrapolated, axis=0)
+        _, of_blocks, _ = jackknife(blocks, extrapolated, axis=0, leading=True)
         error, left_out = larger_errors(error, of_blocks, left_out)
     columns = {}
     for name in value:
@@ -66,14 +61,44 @@ def steady_derivatives(
     return columns
 
 
-def _all_slopes(scene, generator: Generator, paths: dict[str, str]) -> dict[str, np.ndarray]:
-    """Of every observable: arrays (numbers, ...)."""
-    state = state_of(generator)
-    each = [
-        slopes(scene, generator.sampler, path, state, generator.steady(path))
-        for path in paths.values()
-    ]
-    return {name: np.stack([one[name] for one in each]) for name in reported_names(scene)}
+def _all_slopes(
+    scene, samples: Samples, averages: dict, paths: dict[str, str], facts: Facts, ahead: float
+) -> dict[str, np.ndarray]:
+    """Of every observable: arrays (..., numbers, ...), leading axes those of the averages.
+
+    `ahead`: the changes of the averages go on by this share of what the last two degrees did.
+    """
+    averages, degree = leading_last(averages), samples.sampler.degree
+    higher, lower = (
+        Generator(scene, samples.sampler, averages, at, facts) for at in (degree, degree - LOWER)
+    )
+    moments, cubed, source = state_of(higher)
+    state = State(moments, cubed, source[_shared(lower)])
+    each = []
+    for path in paths.values():
+        change = _extrapolated(higher.steady(path), lower.steady(path), _shared(lower), ahead)
+        each.append(slopes(scene, samples.sampler, path, state, change))
+    axis = cubed.ndim
+    return {
+        name: np.stack([one[name] for one in each], axis=axis) for name in reported_names(scene)
+    }
+
+
+def _shared(lower: Generator) -> list[int]:
+    """Rows of the collisional changes that lower degrees have too; the last counts collisions."""
+    return [*range(lower.count), -1]
+
+
+def _extrapolated(higher: Change, lower: Change, rows: list[int], ahead: float) -> Change:
+    def on(a, b):
+        return a + ahead * (a - b)
+
+    return Change(
+        on(higher.moments, lower.moments),
+        on(higher.cubed, lower.cubed),
+        on(higher.source[rows], lower.source),
+        higher.pure and lower.pure,
+    )
 
 
 def _in_blocks(means: dict[str, np.ndarray], weights: np.ndarray) -> dict[str, np.ndarray]:

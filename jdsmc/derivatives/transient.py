@@ -9,9 +9,9 @@ import numpy as np
 from ..scenarios.base import AbstractScene
 from ..scenarios.homogeneous import AbstractHomogeneous
 from ..stats import jackknife
-from .observed import State, reported_names, slopes, state_of
-from .response import Change, Facts, Generator
-from .samples import Samples
+from .observed import reported_names, slopes, state_of
+from .response import Facts, Generator, solved, times_vector
+from .samples import Samples, leading_last
 
 DEGREE, HIGHER = 4, 6
 """Of the trial functions, and of those that tell the truncation: one record is too few particles
@@ -37,7 +37,9 @@ def transient_derivatives(
     def found(averages: dict, degree: int) -> dict[str, np.ndarray]:
         return _along(scene, samples, averages, times, degree, paths)
 
-    value, error, _ = jackknife(means, lambda averages: found(averages, DEGREE), axis=0)
+    value, error, _ = jackknife(
+        means, lambda averages: found(averages, DEGREE), axis=0, leading=True
+    )
     higher = found({name: np.mean(x, axis=0) for name, x in means.items()}, HIGHER)
     columns = {"time": times}
     for name in value:
@@ -48,63 +50,49 @@ def transient_derivatives(
 
 
 def _along(scene, samples: Samples, averages: dict, times, degree: int, paths) -> dict:
-    """Of every observable: arrays (numbers, blocks, ...)."""
+    """Of every observable: arrays (..., numbers, blocks, ...), leading axes of the averages."""
     none = Facts(mode=False, stationary=False)
-    each = [
-        Generator(scene, samples.sampler, {n: x[k] for n, x in averages.items()}, degree, none)
-        for k in range(len(times))
-    ]
-    inverses = [_solved(one) for one in each]
-    state = State(*(_stacked(part) for part in zip(*map(state_of, each), strict=True)))
-    found = []
+    generator = Generator(scene, samples.sampler, leading_last(averages), degree, none)
+    inverse = _inverse(generator)
+    operator = np.einsum("kl...,lm...->km...", generator.operator, inverse)
+    state, found = state_of(generator), []
     for path in paths.values():
-        coefficients = _coefficients(each, inverses, times, path)
-        changes = [one.change(path, c) for one, c in zip(each, coefficients, strict=True)]
-        moments, cubed, source, _ = zip(*changes, strict=True)
-        whole = Change(_stacked(moments), _stacked(cubed), _stacked(source))
-        found.append(slopes(scene, samples.sampler, path, state, whole))
-    return {name: np.stack([one[name] for one in found]) for name in reported_names(scene)}
+        moved = _moved(operator, generator.rates(path), times, generator.scale)
+        change = generator.change(path, times_vector(inverse, moved))
+        found.append(slopes(scene, samples.sampler, path, state, change))
+    axis = generator.cubed.ndim - 1
+    return {
+        name: np.stack([one[name] for one in found], axis=axis) for name in reported_names(scene)
+    }
 
 
-def _stacked(values) -> np.ndarray:
-    """Blocks along the last axis."""
-    return np.stack(list(values), axis=-1)
+def _inverse(one: Generator) -> np.ndarray:
+    """G⁻¹ of the trial functions; inverted in powers of the thermal speed, for its condition."""
+    scale = one.scale[: one.count]
+    units = scale[:, None] * scale
+    last = np.moveaxis(one.covariance[: one.count] / units, (0, 1), (-2, -1))
+    return np.moveaxis(np.linalg.inv(last), (-2, -1), (0, 1)) / units
 
 
-def _scale(one: Generator) -> np.ndarray:
-    """Powers of the thermal speed of the trial functions."""
-    size = np.sqrt(one.trace(one.moments) / one.scene.gas.dimension)
-    return size ** one.degrees[: one.count]
-
-
-def _solved(one: Generator) -> np.ndarray:
-    """G⁻¹ of the trial functions."""
-    scale, n = _scale(one), one.count
-    inverse = np.linalg.inv(one.covariance[:n] / np.multiply.outer(scale, scale))
-    return inverse / np.multiply.outer(scale, scale)
-
-
-def _coefficients(each: list[Generator], inverses: list, times, path: str) -> list[np.ndarray]:
-    """G⁻¹ δμ at every block, by Crank and Nicolson's rule between them."""
-    operators = [one.operator @ inverse for one, inverse in zip(each, inverses, strict=True)]
-    sources = [one.rates(path) for one in each]
-    change, out, before = np.zeros(each[0].count), [], 0.0
+def _moved(operator: np.ndarray, source: np.ndarray, times, scale: np.ndarray) -> np.ndarray:
+    """δμ at every block, the last axis, by Crank and Nicolson's rule between them."""
+    change, found, before = np.zeros_like(source[..., 0]), [], 0.0
     for k, time in enumerate(times):
         earlier = max(k - 1, 0)
         step = (time - before) / SUBSTEPS
         for part in range(SUBSTEPS if step > 0 else 0):
             a, b = (
-                [(1.0 - share) * x[earlier] + share * x[k] for x in (operators, sources)]
+                [(1.0 - share) * x[..., earlier] + share * x[..., k] for x in (operator, source)]
                 for share in (part / SUBSTEPS, (part + 1) / SUBSTEPS)
             )
-            change = _crank_nicolson(change, a, b, step, _scale(each[k]))
-        out.append(inverses[k] @ change)
+            change = _crank_nicolson(change, a, b, step, scale[: len(source), ..., k])
+        found.append(change)
         before = time
-    return out
+    return np.stack(found, axis=-1)
 
 
 def _crank_nicolson(change, before, after, step: float, scale: np.ndarray) -> np.ndarray:
     """One step of dx/dt = A x + s; in units of `scale`, for the condition of the system."""
-    right = change + 0.5 * step * (before[0] @ change + before[1] + after[1])
-    matrix = np.eye(len(scale)) - 0.5 * step * after[0] * scale / scale[:, None]
-    return scale * np.linalg.solve(matrix, right / scale)
+    right = change + 0.5 * step * (times_vector(before[0], change) + before[1] + after[1])
+    one = np.eye(len(change)).reshape(*after[0].shape[:2], *(1,) * (change.ndim - 1))
+    return scale * solved(one - 0.5 * step * after[0] * scale / scale[:, None], right / scale)
