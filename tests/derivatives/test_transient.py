@@ -1,0 +1,79 @@
+"""Derivatives at fixed time against equations of moments that close."""
+
+from typing import Any
+
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+import jdsmc
+from jdsmc.derivatives.numbers import slope
+from jdsmc.scenarios import UniformShear
+
+ALPHA, RATE, RECORD = 0.6, 2.0, 0.4
+
+
+class InelasticMaxwell(jdsmc.AbstractGas):
+    """Grains that make one collision per τ0, whatever their speed."""
+
+    restitution: Any = jdsmc.number("α", low=0.0, high=1.0)
+
+    def rate(self, speed):
+        return jnp.full_like(speed, 2 * np.sqrt(2))
+
+    def momentum_transfer(self, relative_velocity, outgoing):
+        share = (1 + self.restitution) / 4
+        return tuple(share * (g - e) for g, e in zip(relative_velocity, outgoing, strict=True))
+
+
+def exact(times, restitution, shear_rate):
+    """T and -P_xy/nT of a gas that starts at rest in equilibrium.
+
+    Isotropic outgoing directions, c = (1+α)/2: dP_ij/dt = -c(2-c) P_ij + c² T δ_ij per collision
+    of a particle, and the flow adds -a (P_yj δ_ix + P_iy δ_jx).
+    """
+    c = (1 + restitution) / 2
+    change = -c * (2 - c) * np.eye(4)
+    change[:3, :3] += c * c / 3
+    change[0, 3], change[3, 1] = -2 * shear_rate, -shear_rate
+    start = np.array([1.0, 1.0, 1.0, 0.0])
+    xx, yy, zz, xy = np.transpose([expm(change * t) @ start for t in times])
+    heat = (xx + yy + zz) / 3
+    return {"temperature": heat, "shear_stress": -xy / heat}
+
+
+def derivatives(times):
+    """Of `exact`, by the name of the number; differences of closed forms are good to 1e-9."""
+    return {
+        "restitution": slope(lambda h: exact(times, ALPHA + h, RATE), 1e-3),
+        "shear_rate": slope(lambda h: exact(times, ALPHA, RATE + h), 1e-3),
+    }
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_moments_that_close(seed):
+    """Sampled every 0.4 τ0: what lies between samples is as good as the samples themselves.
+
+    Errors of neighbouring times are of the same gas: one value in units of its error may reach 4.
+    """
+    scene = UniformShear(InelasticMaxwell(ALPHA), RATE)
+    options = {"n_particles": 10_240, "time_step": RECORD / 16, "steps_per_record": 16}
+    result = jdsmc.sensitivity(
+        *(scene, ("restitution", "shear_rate")),
+        **options | {"duration": 8.0, "seed": seed, "progress": False},
+    )
+    series = result.series
+    known = derivatives(series["time"].values)
+    for number, of in known.items():
+        for name, truth in of.items():
+            value, error, truncation = (
+                series.sel(parameter=number)[name + suffix].values
+                for suffix in ("", "_error", "_truncation")
+            )
+            assert value[0] == pytest.approx(0.0, abs=1e-12)  # nothing has answered yet
+            # the step of 0.025 and straight lines within a quarter of a record: 5e-4
+            allowed = np.hypot(error, truncation)[1:] + 5e-4 * np.max(np.abs(truth))
+            assert np.all(np.abs(value - truth)[1:] < 4 * allowed)
+            # 8e4 particles: the derivative is known
+            assert np.all(error[1:10] < 0.06 * np.max(np.abs(truth)))
