@@ -18,7 +18,7 @@ from jdsmc.running.engine import Engine
 from jdsmc.running.estimates import averages_to_print, estimates_of
 from jdsmc.scenarios import Options, UniformShear
 
-from .timing import machine, say
+from .timing import facts, say
 
 RESULTS = Path(__file__).parent / "results" / "balance.md"
 RESTITUTIONS = (0.5, 0.7, 0.9)
@@ -106,12 +106,11 @@ def main() -> None:
             f"| {plain / ours:.2f} |"
         )
         say(gains[-1] + "\n" + runs[-1])
-    facts = ", ".join(f"{name} {value}" for name, value in machine().items())
     columns = " | ".join(f"variance of {symbol}" for symbol in NAMES.values())
     text = [
         "# The noise of collisions taken out of a sheared gas",
         "",
-        f"Made by `python -m benchmarks.balance`; {facts}.",
+        f"Made by `python -m benchmarks.balance`; {facts()}.",
         "",
         "Variance of the plain time averages over that without the noise (one run of "
         f"{REALIZATIONS} realizations, {PARTICLES} particles: good to 20%); CPU time of a record "

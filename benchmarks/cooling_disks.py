@@ -25,7 +25,7 @@ from jdsmc import InelasticHardDisks
 from jdsmc.scenarios import CoolingDisks, MolecularDynamics
 from jdsmc.theory import langevin
 
-from .timing import machine, say
+from .timing import facts, say
 
 ALPHA, NUMBER, DENSITY = 0.8, 1000, 0.01
 GAS = f"α = {ALPHA}, N = {NUMBER}, n σ² = {DENSITY}"
@@ -187,7 +187,7 @@ def chart(folder: Path) -> None:
 
 def speed() -> None:
     """Nanoseconds a fictive particle-step, collisions a second, seconds to 2% of η."""
-    say(", ".join(f"{name} {value}" for name, value in machine().items()))
+    say(facts())
     say(f"NPROC = {os.environ.get('NPROC', 'not set')}")
     real, copies, duration = 3000, 10, 20.0
     scene = CoolingDisks(InelasticHardDisks(0.9), density=DENSITY, copies=copies)

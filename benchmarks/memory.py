@@ -15,7 +15,7 @@ import jdsmc
 from jdsmc import InelasticHardSpheres
 from jdsmc.scenarios import FourierFlow, ShearedSlab, UniformShear
 
-from .timing import machine
+from .timing import facts
 
 RESULTS = Path(__file__).parent / "results" / "memory.md"
 REALIZATIONS = 8
@@ -52,12 +52,11 @@ def main() -> None:
         ]
         rows.append(f"| {name} | {' | '.join(each)} |")
         print(rows[-1], flush=True)
-    facts = ", ".join(f"{name} {value}" for name, value in machine().items())
     heads = [f"{REALIZATIONS * size:.0e} particles" for size in SIZES[1:]]
     text = [
         "# Memory, in bytes a particle",
         "",
-        f"Made by `python -m benchmarks.memory`. {REALIZATIONS} realizations; {facts}.",
+        f"Made by `python -m benchmarks.memory`. {REALIZATIONS} realizations; {facts()}.",
         "",
         f"| scene | {' | '.join(heads)} |",
         "|---" * (len(heads) + 1) + "|",

@@ -15,7 +15,7 @@ from concurrent.futures import ThreadPoolExecutor
 from jdsmc import events
 from jdsmc.events import system as at
 
-from .timing import machine, say
+from .timing import facts, say
 
 RESTITUTION, GROWTH_RATE, INTERVAL = 0.9, 0.0419, 0.7  # μ = ζ(T0)/2 by eqs. 12 and 13
 
@@ -50,7 +50,7 @@ def main() -> None:
     parser.add_argument("--density", type=float, default=0.01, help="nσ²")
     parser.add_argument("--seconds", type=float, default=3.0, help="of each measurement, about")
     options = parser.parse_args()
-    say(", ".join(f"{name} {value}" for name, value in machine().items()))
+    say(facts())
     say("disks  threads  per wall second  per processor second  crossings  outdated  faults")
     for n_particles in (1000, 3000):
         for n_threads in (1, 2):

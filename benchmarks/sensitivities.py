@@ -18,7 +18,7 @@ import jdsmc
 from jdsmc import InelasticHardSpheres
 from jdsmc.scenarios import UniformShear
 
-from .timing import machine, say
+from .timing import facts, say
 
 RESULTS = Path(__file__).parent / "results" / "sensitivities.md"
 STEPS = {0.6: 0.035, 0.7: 0.03, 0.85: 0.02}
@@ -62,11 +62,10 @@ def main() -> None:
                 f"| {of_two:.0f} | {gain:.0f} |"
             )
             say(rows[-1])
-    facts = ", ".join(f"{name} {value}" for name, value in machine().items())
     head = (
         "# Derivatives with respect to α: one run against central differences\n\n"
         f"Made by `python -m benchmarks.sensitivities`. {OPTIONS['n_particles']} particles, "
-        f"{OPTIONS['n_realizations']} realizations; {facts}. The last column is the ratio of "
+        f"{OPTIONS['n_realizations']} realizations; {facts()}. The last column is the ratio of "
         "variance times CPU time.\n\n"
         "| α | of | derivative | error | truncation | CPU s | difference | error | CPU s "
         "| gain |\n|---|---|---|---|---|---|---|---|---|---|\n"

@@ -47,6 +47,11 @@ def machine() -> dict:
     }
 
 
+def facts() -> str:
+    """The same in one line."""
+    return ", ".join(f"{name} {value}" for name, value in machine().items())
+
+
 def _processor() -> str:
     table = Path("/proc/cpuinfo")
     if table.exists():

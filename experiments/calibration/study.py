@@ -134,7 +134,7 @@ def draw(data: Calibrations, axes) -> None:
             style.points(panel, alpha, data.beta(name, drag), **look)
         for (label, rule), line in zip(RULES.items(), ("k:", "k--"), strict=True):
             panel.plot(fine, rule(fine), line, label=label)
-        panel.set(xlabel="α", ylabel="β", title=f"{drag} drag", ylim=(0.5, 1.3))
+        panel.set(xlabel="α", ylabel="β", title=f"{drag} drag", ylim=(0.45, 1.4))
     for number, (name, symbol) in enumerate(EXACT.items()):
         axes[0][0].plot(alpha, data.exact[name], color=f"C{number + 6}", label=f"{symbol} (exact)")
     for number, name in enumerate(JOINT):

@@ -11,7 +11,7 @@ from scipy.optimize import least_squares
 from scipy.special import eval_genlaguerre
 
 from jdsmc import Estimate
-from jdsmc.measure.moments import BIN_WIDTH
+from jdsmc.measure.distributions import BIN_WIDTH
 
 from ..numbers import Even, Span, over_parts
 from .data import Heat

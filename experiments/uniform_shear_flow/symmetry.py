@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from jdsmc import Observable, Result
-from jdsmc.measure.moments import BIN_WIDTH, histogram
+from jdsmc.measure.distributions import BIN_WIDTH, histogram
 from jdsmc.scenarios import UniformShear
 
 NOWHERE = 1e6

@@ -14,7 +14,8 @@ from scipy.special import gamma, genlaguerre
 from ..motion.drive import mean
 from ..types import Velocity
 from ..units import CONDUCTIVITY
-from .moments import Moments, histogram, moments
+from .distributions import histogram
+from .moments import Moments, moments
 from .observable import Observable
 
 ORDERS = (1, 2, 3)

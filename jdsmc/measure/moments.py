@@ -4,7 +4,6 @@ from typing import Any
 
 import equinox as eqx
 import jax.numpy as jnp
-import numpy as np
 from jaxtyping import Array, Float
 
 from ..motion.drive import mean
@@ -12,10 +11,6 @@ from ..types import Scalar, Velocity
 
 SPEED_CLASSES = (1.0, 2.0, 3.0)
 """Inner limits C_1..C_3 of the speed classes of eq. (3.15), in units of v0(T)."""
-
-BIN_WIDTH = 0.1
-LARGEST_VELOCITY = 10.0
-"""Histograms cover |C| < 10; what lies beyond is left out of them, not moved into the last bin."""
 
 
 class Moments(eqx.Module):
@@ -43,18 +38,6 @@ class Moments(eqx.Module):
 def temperature(m) -> Any:
     """T of moments on the device, or of averages of them on the host."""
     return (m.xx + m.yy) / 2.0 if m.zz is None else (m.xx + m.yy + m.zz) / 3.0
-
-
-class Distributions(eqx.Module):
-    """Fractions of particles in velocity bins of width 0.1 v0(T), at one instant.
-
-    `marginal_x`: C_x sign(C_y), so that both halves of eq. (5.3) are used; `marginal_y` likewise;
-    `speed`: C.
-    """
-
-    marginal_x: Float[Array, " bins"]
-    marginal_y: Float[Array, " bins"]
-    speed: Float[Array, " half_bins"]
 
 
 def pair_cubed(velocity: Velocity, thermal: Scalar) -> Scalar:
@@ -90,30 +73,3 @@ def moments(velocity: Velocity) -> Moments:
         pair_cubed(velocity, thermal),
         jnp.diff(edges),
     )
-
-
-def distributions(velocity: Velocity) -> Distributions:
-    """Histograms of one instant, in units of the thermal speed of that instant."""
-    vx, vy, *_ = velocity
-    squared = sum(v * v for v in velocity)
-    scale = jnp.sqrt(0.5 * len(velocity) / mean(squared))
-    return Distributions(
-        histogram(vx * jnp.sign(vy) * scale, symmetric=True),
-        histogram(vy * jnp.sign(vx) * scale, symmetric=True),
-        histogram(jnp.sqrt(squared) * scale, symmetric=False),
-    )
-
-
-def histogram(values, *, symmetric: bool):
-    """Fractions of values in the bins of `bin_centres`."""
-    last = round(LARGEST_VELOCITY / BIN_WIDTH)
-    first = -last if symmetric else 0
-    index = jnp.floor(values / BIN_WIDTH).astype(jnp.int32).ravel() - first
-    counts = jnp.zeros(last - first, jnp.int32).at[index].add(1, mode="drop")
-    return counts.astype(values.dtype) / values.size
-
-
-def bin_centres(symmetric: bool) -> np.ndarray:
-    """Centres of the bins: of `marginal_x`, `marginal_y` (symmetric) or of `speed`."""
-    half = round(LARGEST_VELOCITY / BIN_WIDTH)
-    return (np.arange(-half if symmetric else 0, half) + 0.5) * BIN_WIDTH

@@ -17,6 +17,7 @@ import numpy as np
 
 from ..fields import choice, derived, number
 from ..gases import AbstractGas
+from ..measure.distributions import BIN_WIDTH
 from ..measure.heat import (
     RESPONSES,
     MarginalVelocity,
@@ -25,7 +26,6 @@ from ..measure.heat import (
     odd_averages,
     responses,
 )
-from ..measure.moments import BIN_WIDTH
 from ..measure.observable import Observable
 from ..measure.observables import REDUCED
 from ..measure.polynomials import AXIAL, Averages, Powers, Symmetry

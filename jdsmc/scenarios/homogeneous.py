@@ -15,7 +15,14 @@ from ..collisions.pairs import remix
 from ..collisions.whole import collide
 from ..gases.base import check_share
 from ..measure.balance import Balance, balance_of, balances, noise_of, squares, without_noise
-from ..measure.moments import BIN_WIDTH, Distributions, bin_centres, distributions, moments
+from ..measure.distributions import (
+    DISTRIBUTIONS,
+    Distributions,
+    bin_centres,
+    densities,
+    distributions,
+)
+from ..measure.moments import moments
 from ..measure.observable import Observable
 from ..measure.observables import (
     REDUCED,
@@ -31,12 +38,6 @@ from ..units import INITIAL_TEMPERATURE
 from .base import AbstractScene, Record, weighted_means
 from .options import Options
 from .pace import make_steps
-
-DISTRIBUTIONS = (
-    Observable("marginal_x", "g_x^(+)(C_x)", dims=("velocity",)),
-    Observable("marginal_y", "g_y^(+)(C_y)", dims=("velocity",)),
-    Observable("speed", "F(C)", dims=("speed_bin",)),
-)
 
 
 class HomogeneousState(eqx.Module):
@@ -184,8 +185,7 @@ class AbstractHomogeneous(AbstractScene):
 
     def sample_densities(self, sample: dict) -> dict:
         """Probability densities in units of v0(T); each marginal is that of a half space."""
-        halves = {"marginal_x": 0.5, "marginal_y": 0.5, "speed": 1.0}
-        return {name: halves[name] / BIN_WIDTH * values for name, values in sample.items()}
+        return densities(sample)
 
     def axes(self, options: Options) -> dict:
         """Speed classes and velocity bins."""

@@ -20,6 +20,7 @@ from ..collisions.meet import Collisions
 from ..fields import choice, count, number
 from ..gases import AbstractGas, ElasticHardSpheres
 from ..gases.hard_spheres import loses_energy
+from ..measure.distributions import DISTRIBUTIONS, Distributions, bin_centres, over_slab
 from ..measure.observable import Observable
 from ..measure.observables import RHEOLOGY, rheology
 from ..motion import initial_flow
@@ -105,6 +106,7 @@ class ShearedSlab(AbstractSlab):
 
     reports: ClassVar[tuple[Observable, ...]] = (*GLOBAL, *PROFILES)
     applies_drag: ClassVar[bool] = True
+    sampled: ClassVar[tuple[Observable, ...]] = DISTRIBUTIONS
     monitored: ClassVar[tuple[str, ...]] = ("thermal", "xy", "tilt")
     axis: ClassVar[str] = "y"
 
@@ -207,6 +209,14 @@ class ShearedSlab(AbstractSlab):
         stresses = (total(vx * vx), total(vy * vy), total(vz * vz), total(vx * vy))
         freedom = jnp.maximum(flow.number - 1.0, 0.0)
         return Stresses(flow.number, freedom, momentum_x, momentum_y, *stresses)
+
+    def finish_chunk(self, state: SlabState) -> tuple[SlabState, Distributions]:
+        """Sample distributions of velocities relative to the flow of their layer, over v0(T̄)."""
+        return state, over_slab(self.layer(state.position), state.velocity, self.layers)
+
+    def axes(self, options: Options) -> dict:
+        """Classes of speed beside those of every slab."""
+        return super().axes(options) | {"speed_bin": bin_centres(False)}
 
     def averages(self, record: Record) -> dict[str, np.ndarray]:
         """Densities of each record: all add up. In n̄ m v0² and n̄ v0; ratios to `others` are T_ij.

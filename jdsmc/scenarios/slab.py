@@ -14,6 +14,7 @@ from ..collisions.bound import next_bound
 from ..collisions.in_cells import collide_in_layers
 from ..collisions.meet import Collisions
 from ..collisions.trios import LARGEST_PROBABILITY
+from ..measure.distributions import bin_centres, densities
 from ..motion.cells import layer_of
 from ..types import Key, Layer, Positions, Scalar, Velocities
 from .base import AbstractScene, Record
@@ -162,4 +163,9 @@ class AbstractSlab(AbstractScene):
         """Centres of the layers."""
         centres = (np.arange(self.layers) + 0.5) / self.layers * float(self.length)
         facts = {"long_name": f"position {self.axis}", "units": "λ0"}
-        return {self.axis: (centres, facts)}
+        own = {self.axis: (centres, facts)}
+        return own | ({"velocity": bin_centres(True)} if self.sampled else {})
+
+    def sample_densities(self, sample: dict) -> dict:
+        """Probability densities over a thermal speed."""
+        return densities(sample)

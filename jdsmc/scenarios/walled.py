@@ -14,6 +14,8 @@ from .. import random
 from ..collisions.bound import next_bound
 from ..collisions.meet import Collisions
 from ..fields import count, number
+from ..measure.distributions import AT_WALLS, AtWalls, at_walls
+from ..measure.observable import Observable
 from ..motion.cells import populations, totals
 from ..motion.flight import Exchange, fly
 from ..motion.walls import Walls
@@ -88,7 +90,9 @@ class AbstractWalled(AbstractSlab):
     """A gas between two walls, `gravity` pressing it to the lower one."""
 
     gravity: eqx.AbstractVar[Any]
+    cold_temperature: eqx.AbstractVar[Any]
 
+    sampled: ClassVar[tuple[Observable, ...]] = AT_WALLS
     samples_per_record: ClassVar[int] = 8
     axis: ClassVar[str] = "z"
 
@@ -196,6 +200,14 @@ class AbstractWalled(AbstractSlab):
             totals(layer, 0.5 * square * vz, self.layers),
             jnp.sum(state.position),
         )
+
+    def finish_chunk(self, state: WalledState) -> tuple[WalledState, AtWalls]:
+        """Sample velocities across the slab: c_z over the thermal speed of either wall, and of the
+        temperature halfway where T^{3/2} is linear."""
+        cold = self.cold_temperature
+        thermal = jnp.sqrt(cold), jnp.cbrt(0.5 * (1.0 + cold**1.5)), 1.0
+        layer = self.layer(state.position)
+        return state, at_walls(layer, state.velocity[2], self.layers, thermal)
 
     def faults(self, record: WalledRecord) -> str:
         """Particles that bounce on without end, beside those outside."""

@@ -1,6 +1,6 @@
 """Flow between walls: profiles between them, and the stresses and heat that they tell."""
 
-from . import common, generic, pictures
+from . import common, generic, pictures, velocities
 
 PROFILES = ("velocity_x", "temperature", "density", "pressure_xz", "heat_flux")
 STRESSES = ("shear_stress_lower_wall", "shear_stress_upper_wall", "shear_stress")
@@ -17,7 +17,7 @@ def draw(result):
         return generic.draw(result)
     steady, dims = result.steady, common.dimensions(result)
     x = pictures.across(steady, dims)
-    figure, panels = pictures.grid(8 if x else 7, 4, 3.7)
+    figure, panels = pictures.grid(9 if x else 8, 5 if x else 4, 3.7)
     for panel, name in zip(panels, PROFILES, strict=False):
         pictures.profile(panel, steady, dims, name)
     pictures.walls(panels[0], result, dims, "wall_velocity", lambda u: [-0.5 * u, 0.5 * u])
@@ -25,9 +25,10 @@ def draw(result):
     rest = panels[len(PROFILES) :]
     if x:
         names = ("shear_stress", "mean_velocity", "heat_flux_lower_wall")
-        for panel, name in zip(rest, names, strict=True):
+        for panel, name in zip(rest, names, strict=False):
             pictures.against_sweep(panel, steady, dims, x, name)
     else:
         pictures.together(rest[0], result, STRESSES, SIDES, "-P_xz")
         pictures.together(rest[1], result, HEAT, SIDES[:2], "q_z")
+    velocities.draw(panels[-1], result, "velocity")
     return pictures.finish(figure, panels, common.title(result, "Flow between walls"))

@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from . import common, generic, pictures
+from . import common, generic, pictures, velocities
 from .page import Page
 
 PROFILES = ("temperature", "density", "kappa_star", "pressure", "heat_flux")
@@ -50,7 +50,7 @@ def draw(result):
         pictures.against_time(panels[0], result, "mean_heat_flux")
         return pictures.finish(figure, panels, common.title(result, "Fourier flow"))
     x = pictures.across(steady, dims)
-    figure, panels = pictures.grid(7 if x else 6, 4 if x else 3, 3.7)
+    figure, panels = pictures.grid(8 if x else 7, 4, 3.7)
     for panel, name in zip(panels, PROFILES, strict=False):
         pictures.profile(panel, steady, dims, name)
         panel.set_xlabel("z (λ0), cold wall at 0")
@@ -67,6 +67,7 @@ def draw(result):
         _conductivity(panels[6], steady, dims, x)
     else:
         pictures.together(panels[5], result, FLUXES, FLUX_NAMES)
+    velocities.draw(panels[-1], result, "velocity")
     return pictures.finish(figure, panels, common.title(result, "Fourier flow"))
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 
 from ..estimate import format_estimate
-from . import common, generic, pictures, uniform_shear
+from . import common, generic, pictures, uniform_shear, velocities
 from .page import Block, Page
 
 SWEEP = ("mean_temperature", *uniform_shear.STRESSES, "reduced_viscosity")
@@ -77,12 +77,15 @@ def _uniform(data: xr.Dataset, name: str) -> np.ndarray:
 def draw(result):
     """Profiles (at several times, or of the steady points of a sweep) and global averages."""
     dims = common.dimensions(result)
-    figure, panels = pictures.grid(6, 3)
+    kinds = ("velocity", "speed_bin") if velocities.sampled(result) is not None else ()
+    figure, panels = pictures.grid(6 + len(kinds), 4 if kinds else 3, 3.7)
     if dims:
         _sweep_profiles(panels[:3], result, dims)
     else:
         _profiles_in_time(panels[:3], result)
-    _averages(panels[3:], result, dims)
+    _averages(panels[3:6], result, dims)
+    for panel, along in zip(panels[6:], kinds, strict=True):
+        velocities.draw(panel, result, along)
     return pictures.finish(figure, panels, common.title(result, "Sheared slab"))
 
 

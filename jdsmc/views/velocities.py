@@ -6,8 +6,11 @@ import xarray as xr
 from . import common, pictures
 
 VELOCITIES = ("velocity", "speed_bin")
+PLACES = {"lower": "lowest", "middle": "middle", "upper": "highest"}
 AXES = {"marginal_x": "C_x", "marginal_y": "C_y", "speed": "C"}
+AXES |= {f"marginal_z_{place}": "c_z" for place in PLACES}
 SYMBOLS = {"marginal_x": "g_x", "marginal_y": "g_y", "speed": "F"}
+SYMBOLS |= {f"marginal_z_{place}": f"{words} layer" for place, words in PLACES.items()}
 
 
 def sampled(result) -> xr.Dataset | None:
@@ -38,11 +41,32 @@ def draw(panel, result, along: str, names: list[str] | None = None) -> None:
             text = common.label(data, point) if dims else SYMBOLS.get(name, name)
             pictures.curve(panel, x, shown, error, text, color=f"C{number if dims else k}")
             floors.append(shown)
-    if along in VELOCITIES:
+    local = chosen[0].startswith("marginal_z_")
+    if local:
+        _local_maxwellians(panel, data, chosen, dims)
+    elif along in VELOCITIES:
         _maxwellian(panel, data, chosen[0], along)
     _limits(panel, x, np.array(floors))
-    panel.set_xlabel(" or ".join(AXES.get(name, along) for name in chosen))
-    panel.set_ylabel(", ".join(common.meaning(data, name) for name in chosen))
+    axes = dict.fromkeys(AXES.get(name, along) for name in chosen)
+    panel.set_xlabel(" or ".join(axes) + (", v_z over the thermal speed there" if local else ""))
+    meanings = [common.meaning(data, name) for name in chosen]
+    panel.set_ylabel("n f(c_z)/n̄" if local and len(chosen) > 1 else ", ".join(meanings))
+
+
+def _local_maxwellians(panel, data: xr.Dataset, names: list[str], dims) -> None:
+    """Those of the same density, and of the same temperature across the slab."""
+    x = data["velocity"].values
+    for number, point in enumerate(pictures.drawn(data, dims)):
+        for k, name in enumerate(names):
+            value = data.isel(point)[name].values
+            whole = np.sum(value)
+            if not whole > 0:
+                continue
+            mean = np.sum(value * x) / whole
+            density = np.exp(-((x - mean) ** 2) / (2.0 * np.sum(value * (x - mean) ** 2) / whole))
+            density *= whole / np.sum(density)
+            style = {"color": f"C{number if dims else k}", "ls": "--", "lw": 0.8}
+            panel.plot(x, density, **style, label=None if number + k else "Maxwellians, same n, T")
 
 
 def _maxwellian(panel, data: xr.Dataset, name: str, along: str) -> None:
