@@ -34,6 +34,7 @@ class Stream(IntEnum):
 
 _ROTATIONS = (13, 15, 26, 6, 17, 29, 16, 24)
 _PARITY = 0x1BD11BDA
+_FOLD = 0x6A64736D
 
 
 def threefry(key: Key, high: Word, low: Word, rounds: int = 13) -> tuple[Word, Word]:
@@ -42,7 +43,12 @@ def threefry(key: Key, high: Word, low: Word, rounds: int = 13) -> tuple[Word, W
     Arguments: `key`, two scalar words; `high`, `low`, counter words of broadcastable shape.
     Returns: two uint32 arrays of that shape. Different counters give independent words.
     """
-    schedule = (key.high, key.low, key.high ^ key.low ^ jnp.uint32(_PARITY))
+    return _threefry((key.high, key.low), high, low, rounds)
+
+
+def _threefry(key: tuple, high, low, rounds: int) -> tuple:
+    """The same of arrays of NumPy or JAX."""
+    schedule = (*key, key[0] ^ key[1] ^ np.uint32(_PARITY))
     high, low = high + schedule[0], low + schedule[1]
     for i in range(rounds):
         high = high + low
@@ -51,7 +57,7 @@ def threefry(key: Key, high: Word, low: Word, rounds: int = 13) -> tuple[Word, W
         if i % 4 == 3:
             j = i // 4 + 1
             high = high + schedule[j % 3]
-            low = low + schedule[(j + 1) % 3] + jnp.uint32(j)
+            low = low + schedule[(j + 1) % 3] + np.uint32(j)
     return high, low
 
 
@@ -64,7 +70,20 @@ def key_from_seed(seed: int) -> Key:
 
 def fold_in(key: Key, data) -> Key:
     """A new key for each integer `data`: the n-th realization, record or step of a run."""
-    return Key(*threefry(key, jnp.asarray(data, jnp.uint32), jnp.uint32(0x6A64736D), rounds=20))
+    return Key(*threefry(key, jnp.asarray(data, jnp.uint32), jnp.uint32(_FOLD), rounds=20))
+
+
+def keys_of_run(seed: int, number: tuple[int, ...], count: int) -> list[Key]:
+    """Keys of the realizations of one point: its numbers, then that of each, folded in.
+
+    On the host: for a few keys, tracing takes longer than all rounds.
+    """
+    words = [np.asarray(word)[None] for word in key_from_seed(seed)]
+    fold = np.uint32(_FOLD)
+    for one in number:
+        words = _threefry(tuple(words), np.array([one], np.uint32), fold, 20)
+    high, low = _threefry(tuple(words), np.arange(count, dtype=np.uint32), fold, 20)
+    return [Key(*both) for both in zip(high, low, strict=True)]
 
 
 def bits(key: Key, shape: tuple[int, ...], stream=0) -> tuple[Word, Word]:

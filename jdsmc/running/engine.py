@@ -153,18 +153,7 @@ def _each(function, *trees):
 
 def gas_keys(scene: AbstractScene, n_realizations: int, seed: int) -> list:
     """A key for every realization of one point: from the seed and the values of its numbers."""
-    words = np.array(sweep.fingerprint(scene), np.uint32)
-    keys = _keys(random.key_from_seed(seed), words, np.arange(n_realizations, dtype=np.uint32))
-    high, low = (np.asarray(word) for word in keys)
-    return [random.Key(*both) for both in zip(high, low, strict=True)]
-
-
-@jax.jit
-def _keys(key, words, realizations):
-    """Compiled: a sweep of a hundred points makes a hundred of these."""
-    for k in range(2):
-        key = random.fold_in(key, words[k])
-    return jax.vmap(lambda r: random.fold_in(key, r))(realizations)
+    return random.keys_of_run(seed, sweep.fingerprint(scene), n_realizations)
 
 
 def group_size(gases: int, scene: AbstractScene, options: Options) -> int:

@@ -51,17 +51,22 @@ def derivatives(times):
     }
 
 
-@pytest.mark.parametrize("seed", [1, 2])
-def test_moments_that_close(seed):
+def test_moments_that_close():
     """Sampled every 0.4 τ0: what lies between samples is as good as the samples themselves.
 
-    Errors of neighbouring times are of the same gas: one value in units of its error may reach 4.
+    Errors of neighbouring times are of the same gas: one value in units of its error may reach 4
+    (23 degrees of freedom).
     """
     scene = UniformShear(InelasticMaxwell(ALPHA), RATE)
-    options = {"n_particles": 10_240, "time_step": RECORD / 16, "steps_per_record": 16}
+    options = {
+        "n_particles": 2560,
+        "n_realizations": 24,
+        "time_step": RECORD / 16,
+        "steps_per_record": 16,
+    }
     result = jdsmc.sensitivity(
         *(scene, ("restitution", "shear_rate")),
-        **options | {"duration": 8.0, "seed": seed, "progress": False},
+        **options | {"duration": 4.0, "progress": False},
     )
     series = result.series
     known = derivatives(series["time"].values)
@@ -75,5 +80,5 @@ def test_moments_that_close(seed):
             # the step of 0.025 and straight lines within a quarter of a record: 5e-4
             allowed = np.hypot(error, truncation)[1:] + 5e-4 * np.max(np.abs(truth))
             assert np.all(np.abs(value - truth)[1:] < 4 * allowed)
-            # 8e4 particles: the derivative is known
-            assert np.all(error[1:10] < 0.06 * np.max(np.abs(truth)))
+            # 6e4 particles: the derivative is known
+            assert np.all(error[1:10] < 0.08 * np.max(np.abs(truth)))
