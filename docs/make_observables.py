@@ -53,9 +53,9 @@ Equations: Tahiri, Tij and Santos, *Monte Carlo simulation of a hard-sphere gas 
 Fourier flow with a gravity field* (2000): (2), (21) to (25), (28), (29), (32). `z` is the centre of
 a layer in λ0, or a share of the length if that is swept. κ* stands on the local slope of T^{1+ω},
 κ ∝ T^ω, fitted over one λ0. `jdsmc.results.gravity_effect.at_equal_gradient(result)` takes κ*, g*
-and Δκ* at the paper's point z0 from a sweep over gravity. `marginal_z_lower`, `marginal_z_middle` and
-`marginal_z_upper` are densities of c_z = v_z over the thermal speed √(2T/m), T that of the wall, and
-halfway the one of linear T^{3/2}; their norms are n/n̄ there.""",
+and Δκ* at the paper's point z0 from a sweep over gravity. `marginal_z_lower`, `marginal_z_middle`
+and `marginal_z_upper` are densities of c_z = v_z over the thermal speed √(2T/m), T that of the
+wall, and halfway the one of linear T^{3/2}; their norms are n/n̄ there.""",
     "CouetteFlow": """\
 Measured against published values in [couette_flow.md](couette_flow.md). `z` is the centre of a
 layer in λ0, or a share of the length if that is swept. Steady balances, exact:
@@ -72,8 +72,8 @@ state a2 does not depend on the noise, and T follows from it: ξ² = ζT. Held t
     "ShearedSlab": """\
 Equations: Astillero and Santos (2005), (4.5) to (4.9): averages over the slab are P̄_ij/n̄T̄; in the
 temperature of a layer N - 1 stands for N. `y` is the centre of a layer in λ0, or a share of the
-length if that is swept. Distributions are of velocities relative to the flow of their layer, over the
-thermal speed of T̄.""",
+length if that is swept. Distributions are of velocities relative to the flow of their layer, over
+the thermal speed of T̄.""",
     "NavierStokes": """\
 `jdsmc.transport.navier_stokes`; derivation: [impulse response](impulse_response.md). κ0 and η0:
 first Sonine approximation of elastic spheres. Its `result.series` has what is over `lag` against
