@@ -20,6 +20,9 @@ DEGREE, HIGHER = 4, 6
 """Of the trial functions, and of those that tell the truncation: one record is too few particles
 for error bars at degree 6."""
 
+TOGETHER = 8
+"""Realizations left out that are solved at once: all of a long series would take gigabytes."""
+
 SUBSTEPS = 8
 """Steps between two records: modes of a rate 1/τ are resolved to a part in a thousand."""
 
@@ -40,9 +43,15 @@ def transient_derivatives(
     def found(averages: dict, degree: int) -> dict[str, np.ndarray]:
         return _along(scene, samples, averages, times, degree, paths)
 
-    value, error, _ = jackknife(
-        means, lambda averages: found(averages, DEGREE), axis=0, leading=True
-    )
+    def of_others(averages: dict) -> dict[str, np.ndarray]:
+        if np.ndim(averages["cubed"]) == 1:
+            return found(averages, DEGREE)
+        firsts = range(0, len(averages["cubed"]), TOGETHER)
+        parts = [{n: x[k : k + TOGETHER] for n, x in averages.items()} for k in firsts]
+        each = [found(part, DEGREE) for part in parts]
+        return {name: np.concatenate([one[name] for one in each]) for name in each[0]}
+
+    value, error, _ = jackknife(means, of_others, axis=0, leading=True)
     higher = found({name: np.mean(x, axis=0) for name, x in means.items()}, HIGHER)
     columns = {"time": times}
     for name in value:
