@@ -138,7 +138,7 @@ class Session:
             self._next_look = (1.2 if self.correlated else 1.05) * self.spent
         if limits.fixed:
             if self.progress() >= 1.0:
-                return "the asked time was simulated"
+                return self._time_ended()
             return "" if limits.collisions is None else self._hardly_collides(limits.collisions)
         if due and self._precise() and self.is_settled() and self._precise():
             return (
@@ -180,16 +180,26 @@ class Session:
                 f"{self.precision:.2g}, asked {limits.asked}; tested were {drift}{every}"
             )
         self.failed = True
+        tested = self._unsteady()
         if not self.tracker.all_measuring:
-            warm = int(np.sum(self.tracker.start < 0))
-            tested = f"the warm-up had not ended at {warm} of {len(self.tracker.start)} points"
             tested += f", tested was {drift} only"
-        else:
-            tested = "what is measured still changes, or may change by more than its error"
         return (
             f"no steady state within {budget}: {tested}, {limits.slowest()}. Raise "
             "budget, start nearer to the steady state, or give duration."
         )
+
+    def _time_ended(self) -> str:
+        """That the asked time is over, and why there are no steady values if there are none."""
+        over, limits = "the asked time was simulated", self.limits
+        if not limits.can_be_steady or self.is_settled():
+            return over
+        return f"{over}, too short for steady values: {self._unsteady()}, {limits.slowest()}"
+
+    def _unsteady(self) -> str:
+        if self.tracker.all_measuring:
+            return "what is measured still changes, or may change by more than its error"
+        warm = int(np.sum(self.tracker.start < 0))
+        return f"the warm-up had not ended at {warm} of {len(self.tracker.start)} points"
 
     def is_settled(self) -> bool:
         """True if what is measured may be printed as steady at every point."""

@@ -219,4 +219,4 @@ def test_a_disk_that_is_full_ends_no_run(tmp_path, monkeypatch):
     monkeypatch.setattr(seal, "write", full)
     with pytest.warns(UserWarning, match="No space left.*goes on"):
         result = jdsmc.run(SHEAR, collisions=4.0, checkpoint=tmp_path / "run.h5", **SMALL)
-    assert result.attrs["stopped"] == "the asked time was simulated"
+    assert "the asked time was simulated" in result.attrs["stopped"]
