@@ -22,10 +22,10 @@ def draw(result):
         pictures.profile(panel, steady, dims, name)
     pictures.walls(panels[0], result, dims, "wall_velocity", lambda u: [-0.5 * u, 0.5 * u])
     pictures.walls(panels[1], result, dims, "cold_temperature", lambda cold: [cold, 1.0])
-    rest = panels[len(PROFILES) :]
+    rest = panels[len(PROFILES) : -1]
     if x:
         names = ("shear_stress", "mean_velocity", "heat_flux_lower_wall")
-        for panel, name in zip(rest, names, strict=False):
+        for panel, name in zip(rest, names, strict=True):
             pictures.against_sweep(panel, steady, dims, x, name)
     else:
         pictures.together(rest[0], result, STRESSES, SIDES, "-P_xz")
