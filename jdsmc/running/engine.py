@@ -7,6 +7,7 @@ or the hosts, and a sweep of other length compiles nothing new.
 """
 
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import Any
 
 import equinox as eqx
@@ -63,12 +64,15 @@ class Engine:
         self._pool = ThreadPoolExecutor(min(len(work), max(cores(), len(devices))))
         self.states: list[Any] = self._share(lambda n: _start(work[n][0], work[n][1], options))
 
-    def advance(self):
-        """One chunk. Returns (records, sample): pytrees of arrays (points, realizations, ...)."""
+    def advance(self, watch: bool = True):
+        """One chunk. Returns (records, sample): pytrees of arrays (points, realizations, ...).
+
+        `watch`: sample for derivatives too; without it `watched` has zeros.
+        """
         first = jnp.uint32(self.chunks * self.options.records)
 
         def work(number: int):
-            kept = self._scenes[number], self._keys[number], first
+            kept = self._scenes[number], self._keys[number], first, np.bool_(watch)
             state, output = _advance(kept, self.states[number], self.options, self.sampler)
             return state, jax.tree.map(lambda x: np.asarray(x, dtype=float), output)
 
@@ -110,7 +114,7 @@ def _advance(kept, states, options: Options, sampler: Sampler | None):
 
     The states are overwritten: two copies of a gas would be half of all memory.
     """
-    scene, keys, first_record = kept
+    scene, keys, first_record, watch = kept
 
     def one_gas(scene, key, state):
         key = random.fold_in(key, 1)
@@ -120,7 +124,8 @@ def _advance(kept, states, options: Options, sampler: Sampler | None):
             own = random.fold_in(key, first_record + count)
             sums = None
             if sampler is not None and reference is not None:
-                sums = sampler.sample(own, scene.gas, state.velocity, reference)
+                looked_at = partial(sampler.sample, own, scene.gas, state.velocity, reference)
+                sums = _only_if(watch, looked_at)
             state, record = scene.advance(own, state, options)
             return state, (record, sums)
 
@@ -132,6 +137,15 @@ def _advance(kept, states, options: Options, sampler: Sampler | None):
         return state, (records, sample, watched)
 
     return _each(one_gas, scene, keys, states)
+
+
+def _only_if(asked, function):
+    """What a function returns, or zeros without calling it; the same for all gases."""
+
+    def nothing():
+        return jax.tree.map(lambda x: jnp.zeros(x.shape, x.dtype), jax.eval_shape(function))
+
+    return lax.cond(asked, function, nothing)
 
 
 def _each(function, *trees):

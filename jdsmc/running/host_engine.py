@@ -50,8 +50,11 @@ class HostEngine:
         self.states = [jax.tree.map(np.array, state) for state in own]
         self.chunks = int(chunks)
 
-    def advance(self):
-        """One chunk. Returns (records, sample): pytrees of arrays (points, realizations, ...)."""
+    def advance(self, watch: bool = False):
+        """One chunk. Returns (records, sample): pytrees of arrays (points, realizations, ...).
+
+        `watch`: as of `Engine`; nothing is sampled for derivatives here.
+        """
 
         def work(number: int):
             scene, state = self._scenes[number], self.states[number]

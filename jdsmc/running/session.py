@@ -97,10 +97,12 @@ class Session:
 
     def advance(self) -> None:
         """One chunk, its faults checked, and the steady state looked for."""
-        record, sample = self.engine.advance()
+        sampler = None if self.samples is None else self.samples.sampler
+        watch = sampler is not None and (sampler.each or self.tracker.may_be_measured)
+        record, sample = self.engine.advance(watch)
         faults.check_record(self.history, record)
         faults.check_collisions(self.history, record)
-        if self.samples is not None:
+        if self.samples is not None and watch:
             self.samples.extend(self.engine.watched, record.elapsed, self.history.length)
         self.history.append(record, sample)
         if self.history.length >= self._next_check:

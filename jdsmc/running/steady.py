@@ -203,6 +203,11 @@ class SteadyTracker:
         """True once every point has left its warm-up."""
         return bool(np.all(self.start >= 0))
 
+    @property
+    def may_be_measured(self) -> bool:
+        """True unless records made now are warm-up for certain, at every point."""
+        return bool(np.any((self.start >= 0) | ~self.certain))
+
 
 def smallest_significance(early: np.ndarray, late: np.ndarray) -> float:
     """Of a drift of any component, which are as many chances (Bonferroni)."""
@@ -233,7 +238,7 @@ class NothingToSettle:
     def __init__(self, points: int):
         self.start = np.zeros(points, int)
         self.least = np.zeros(points)
-        self.all_measuring = True
+        self.all_measuring = self.may_be_measured = True
 
     def state(self) -> dict:
         """Where measurements start, (points,)."""

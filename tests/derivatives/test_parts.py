@@ -1,5 +1,6 @@
 """The parts of the method, each against what it must be exactly."""
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -122,10 +123,14 @@ def test_drift_of_the_heat_flux_force_is_that_of_its_flow():
 
 def sample(gas, velocity, paths=(), symmetry=SHEARED, degree=4):
     """Sums of one instant at the true scale of velocities."""
-    sampler = Sampler(symmetry, degree, tuple(paths), False)
     gas = jax.tree.map(lambda x: jnp.asarray(x, jnp.float32), gas)
-    key = random.key_from_seed(5)
-    return jax.jit(lambda v: sampler.sample(key, gas, v, jnp.ones(())))(velocity)
+    return sums(Sampler(symmetry, degree, tuple(paths), False), gas, velocity)
+
+
+@eqx.filter_jit
+def sums(sampler, gas, velocity):
+    """Compiled once for all gases of a kind."""
+    return sampler.sample(random.key_from_seed(5), gas, velocity, jnp.ones(()))
 
 
 def test_tangents_are_differences_of_the_source():

@@ -34,7 +34,7 @@ from .small import assert_same, scene, simulate
 )
 def test_bad_options(options, words, monkeypatch):
     """Refused before anything is computed."""
-    monkeypatch.setattr(Engine, "advance", lambda self: pytest.fail("a chunk was computed"))
+    monkeypatch.setattr(Engine, "advance", lambda self, watch: pytest.fail("a chunk was computed"))
     with pytest.raises(ValueError, match=words):
         simulate(**options)
 

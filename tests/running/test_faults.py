@@ -31,10 +31,10 @@ def spoiled(monkeypatch, spoil):
     """Have every engine go on from states changed by `spoil` after its first chunk."""
     advance = Engine.advance
 
-    def patched(self):
+    def patched(self, watch):
         if self.chunks == 1:
             self.states = [spoil(state) for state in self.states]
-        return advance(self)
+        return advance(self, watch)
 
     monkeypatch.setattr(Engine, "advance", patched)
 

@@ -24,10 +24,10 @@ def interrupt_at(monkeypatch, chunk, send):
     """Have Engine.advance send the signal of Ctrl-C while it computes this chunk."""
     advance = Engine.advance
 
-    def patched(self):
+    def patched(self, watch):
         if self.chunks + 1 == chunk:
             send()
-        return advance(self)
+        return advance(self, watch)
 
     monkeypatch.setattr(Engine, "advance", patched)
 

@@ -253,10 +253,10 @@ def test_interrupted_run_keeps_its_kicks(four_kicks, monkeypatch):
     """Ctrl-C during the second kick returns two; programs are compiled already."""
     kick = Engine.advance
 
-    def pressed(self):
+    def pressed(self, watch):
         if self.chunks == 1:
             os.kill(os.getpid(), signal.SIGINT)
-        return kick(self)
+        return kick(self, watch)
 
     monkeypatch.setattr(Engine, "advance", pressed)
     result = navier_stokes(InelasticHardSpheres(RESTITUTIONS), n_kicks=1000, **SMALL)

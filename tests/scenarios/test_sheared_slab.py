@@ -402,7 +402,7 @@ def test_commands(tmp_path, monkeypatch, capsys):
 def test_bad_input(line, words, tmp_path, capsys, monkeypatch):
     """One sentence, status 2, nothing written and nothing simulated."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(Engine, "advance", lambda self: pytest.fail("a chunk ran"))
+    monkeypatch.setattr(Engine, "advance", lambda self, watch: pytest.fail("a chunk ran"))
     try:
         status = cli.main(["run", "sheared-slab", *SMALL, *line.split(), "--out", "x.h5"])
     except SystemExit as leaving:
