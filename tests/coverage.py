@@ -69,7 +69,7 @@ def cases() -> dict[str, Case]:
         "white-noise": Case(
             lambda: WhiteNoiseThermostat(InelasticHardSpheres(0.4), 0.1), 0.05, {"collisions": 4000}
         ),
-        "heat-flux": Case(lambda: HeatFluxForce(GAS, 0.2), 2e-2, {"collisions": 4000}),
+        "heat-flux": Case(lambda: HeatFluxForce(GAS, 0.1), 3e-2, {"collisions": 4000}),
         "navier-stokes": Case(
             lambda: NavierStokes(GAS),
             3e-2,
