@@ -319,3 +319,17 @@ def test_no_steady_flux_without_a_field(field):
 def test_gas_with_drag():
     with pytest.raises(TypeError, match="HeatFluxForce needs a gas without drag"):
         HeatFluxForce(ElasticHardSpheres(0.9), 0.1)
+
+
+def test_tail_exponent():
+    """Survival of a particle that falls up the force, by its rate of collisions: V^{-√2 β/ε}."""
+    scene = HeatFluxForce(InelasticHardSpheres(0.7), 0.05)
+    assert scene.tail_exponent() == pytest.approx(np.sqrt(2) / 0.05, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("field", "doubted"), [(0.05, ""), (0.07, "a3, b'_3"), (0.1, "a2, b'_2, a3, b'_3")]
+)
+def test_remark_on_averages_that_hang_on_rare_particles(field, doubted):
+    said = HeatFluxForce(InelasticHardSpheres(0.7), field).remarks({}, np.ones(1))
+    assert f"errors of {doubted} may" in said if doubted else said == ""
