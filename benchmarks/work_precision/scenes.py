@@ -7,11 +7,13 @@ from typing import Any
 from jdsmc import InelasticHardDisks, InelasticHardSpheres
 from jdsmc.scenarios import (
     CoolingDisks,
+    CouetteFlow,
     FourierFlow,
     HeatFluxForce,
     HomogeneousCooling,
     ShearedSlab,
     UniformShear,
+    WhiteNoiseThermostat,
 )
 from jdsmc.theory import boltzmann, langevin
 
@@ -58,6 +60,11 @@ def _slab(layers=None, **_):
 def _fourier(layers=None, **_):
     sizes = {} if layers is None else {"layers": layers}
     return FourierFlow(InelasticHardSpheres(1.0), length=10.0, cold_temperature=0.5, **sizes)
+
+
+def _couette(layers=None, **_):
+    sizes = {} if layers is None else {"layers": layers}
+    return CouetteFlow(InelasticHardSpheres(1.0), wall_velocity=0.8, length=4.0, **sizes)
 
 
 STEPS = (0.0125, 0.025, 0.05, 0.1, 0.2)
@@ -124,6 +131,28 @@ SCENES = (
             "splitting": SPLITTING,
         },
         reference={"time_step": 0.0125, "n_particles": 10000, "layers": 100},
+        longer=4.0,
+    ),
+    Studied(
+        "white-noise",
+        lambda **_: WhiteNoiseThermostat(InelasticHardSpheres(0.4), 0.1),
+        ("temperature", "a2"),
+        {"collisions": 400.0},
+        {"time_step": STEPS, "n_particles": (640, 1280, 2560, 5120, 20000)},
+        reference={"time_step": 0.0125, "n_particles": 20000},
+    ),
+    Studied(
+        "couette",
+        _couette,
+        ("shear_stress", "heat_flux_upper_wall"),
+        {"duration": 600.0},
+        {
+            "time_step": (0.0125, 0.025, 0.05),
+            "n_particles": (1250, 2500, 5000),
+            "layers": (10, 20, 40, 80),
+            "splitting": SPLITTING,
+        },
+        reference={"time_step": 0.0125, "n_particles": 10000, "layers": 80},
         longer=4.0,
     ),
     Studied(
