@@ -24,10 +24,10 @@ DISTRIBUTIONS = (
 HALVES = {"marginal_x": 0.5, "marginal_y": 0.5, "speed": 1.0}
 """Norms: each marginal is that of a half space."""
 
-PLACES = ("lower", "middle", "upper")
+PLACES = {"lower": "lowest", "middle": "middle", "upper": "highest"}
 AT_WALLS = tuple(
     Observable(f"marginal_z_{place}", f"n f(c_z)/n̄, {words} layer", dims=("velocity",))
-    for place, words in zip(PLACES, ("lowest", "middle", "highest"), strict=True)
+    for place, words in PLACES.items()
 )
 
 

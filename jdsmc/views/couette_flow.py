@@ -17,12 +17,13 @@ def draw(result):
         return generic.draw(result)
     steady, dims = result.steady, common.dimensions(result)
     x = pictures.across(steady, dims)
-    figure, panels = pictures.grid(9 if x else 8, 5 if x else 4, 3.7)
+    sampled = velocities.sampled(result) is not None
+    figure, panels = pictures.grid((8 if x else 7) + sampled, 5 if x else 4, 3.7)
     for panel, name in zip(panels, PROFILES, strict=False):
         pictures.profile(panel, steady, dims, name)
     pictures.walls(panels[0], result, dims, "wall_velocity", lambda u: [-0.5 * u, 0.5 * u])
     pictures.walls(panels[1], result, dims, "cold_temperature", lambda cold: [cold, 1.0])
-    rest = panels[len(PROFILES) : -1]
+    rest = panels[len(PROFILES) : len(panels) - sampled]
     if x:
         names = ("shear_stress", "mean_velocity", "heat_flux_lower_wall")
         for panel, name in zip(rest, names, strict=True):
@@ -30,5 +31,6 @@ def draw(result):
     else:
         pictures.together(rest[0], result, STRESSES, SIDES, "-P_xz")
         pictures.together(rest[1], result, HEAT, SIDES[:2], "q_z")
-    velocities.draw(panels[-1], result, "velocity")
+    if sampled:
+        velocities.draw(panels[-1], result, "velocity")
     return pictures.finish(figure, panels, common.title(result, "Flow between walls"))

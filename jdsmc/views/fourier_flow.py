@@ -50,7 +50,8 @@ def draw(result):
         pictures.against_time(panels[0], result, "mean_heat_flux")
         return pictures.finish(figure, panels, common.title(result, "Fourier flow"))
     x = pictures.across(steady, dims)
-    figure, panels = pictures.grid(8 if x else 7, 4, 3.7)
+    sampled = velocities.sampled(result) is not None
+    figure, panels = pictures.grid((7 if x else 6) + sampled, 4, 3.7)
     for panel, name in zip(panels, PROFILES, strict=False):
         pictures.profile(panel, steady, dims, name)
         panel.set_xlabel("z (λ0), cold wall at 0")
@@ -67,7 +68,8 @@ def draw(result):
         _conductivity(panels[6], steady, dims, x)
     else:
         pictures.together(panels[5], result, FLUXES, FLUX_NAMES)
-    velocities.draw(panels[-1], result, "velocity")
+    if sampled:
+        velocities.draw(panels[-1], result, "velocity")
     return pictures.finish(figure, panels, common.title(result, "Fourier flow"))
 
 

@@ -3,10 +3,10 @@
 import numpy as np
 import xarray as xr
 
+from ..measure.distributions import PLACES
 from . import common, pictures
 
 VELOCITIES = ("velocity", "speed_bin")
-PLACES = {"lower": "lowest", "middle": "middle", "upper": "highest"}
 AXES = {"marginal_x": "C_x", "marginal_y": "C_y", "speed": "C"}
 AXES |= {f"marginal_z_{place}": "c_z" for place in PLACES}
 SYMBOLS = {"marginal_x": "g_x", "marginal_y": "g_y", "speed": "F"}
