@@ -26,8 +26,9 @@ class Studied:
 
     Arguments: its name; `make`, the scene with some of its own sizes changed; observables; options
     of `run` for the length of a row; knobs, by name the settings that are tried one at a time,
-    of `run` or of the scene; `truth`, values of the observables by deterministic theory, or the
-    settings of a run that is closer to the limit (a reference), `longer` times as long.
+    of `run` or of the scene; `truth`, values of the observables by deterministic theory (which:
+    `truth_by`), or the settings of a run that is closer to the limit (a reference), `longer` times
+    as long.
     """
 
     name: str
@@ -36,6 +37,7 @@ class Studied:
     length: dict[str, float]
     knobs: dict[str, tuple]
     truth: dict[str, float] = field(default_factory=dict)
+    truth_by: str = "theory"
     reference: dict[str, Any] = field(default_factory=dict)
     longer: float = 10.0
 
@@ -104,6 +106,7 @@ SCENES = (
             "steps_per_record": (4, 8, 16),
         },
         truth={"modified_conductivity": boltzmann.navier_stokes(0.7).modified_conductivity},
+        truth_by="theory at zero field",
     ),
     Studied(
         "sheared-slab",
