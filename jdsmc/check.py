@@ -19,6 +19,8 @@ def physical(value):
 
 def _numbers(value) -> np.ndarray | None:
     """As a float64 array; None for text, truth values, ragged lists and other objects."""
+    if np.ma.is_masked(value):
+        return None
     try:
         array = np.asarray(value)
     except ValueError:
@@ -85,8 +87,15 @@ def at_least(name, value, low) -> None:
 
 def size(name, value, low) -> None:
     """The same, and that no array is too large for it."""
-    if whole(name, value, low) >= MOST:
+    sized(name, value, low)
+
+
+def sized(name, value, low) -> int:
+    """As `whole`, of a value that no array is too large for."""
+    found = whole(name, value, low)
+    if found >= MOST:
         raise ValueError(f"{name} = {value} is outside the allowed range [{low}, 2^31).")
+    return found
 
 
 def one_of(name, value, choices):

@@ -17,6 +17,8 @@ class Estimate:
     `value, error = estimate` takes it apart. `a - b`, `a / b`, `a ** 2`, `estimate.map(np.log)` and
     `combine(function, a, b)` propagate the error by a jackknife: what stems from one run is
     correlated through its realizations, what stems from different runs is independent.
+    `estimate.mean()` and `estimate.sum()`, or NumPy's, are over the elements of an array (Python's
+    own `sum` takes the pair apart, and adds value and error).
     `estimate.interval(0.95)` holds the truth with at least this probability (Student's t).
     """
 
@@ -37,6 +39,8 @@ class Estimate:
         of freedom of each run's share of the error, R - 1 if not said; without a run the error
         counts as known.
         """
+        if np.any(np.asarray(error) < 0):
+            raise ValueError(f"error = {error} is outside the allowed range [0, inf).")
         self.value, self.error = value, error
         shape = np.shape(value)
         self._points = np.arange(np.size(value)).reshape(shape) if points is None else points
@@ -66,6 +70,23 @@ class Estimate:
             for new, run in zip(left_out, self._left_out, strict=True)
         }
         return Estimate(value, error, left_out, points, freedom)
+
+    def mean(self, axis: int | None = None, dtype=None, out=None) -> "Estimate":
+        """Over the elements, or along one axis; points of a sweep are independent."""
+        return self._reduced(np.mean, axis)
+
+    def sum(self, axis: int | None = None, dtype=None, out=None) -> "Estimate":
+        """Over the elements, or along one axis; points of a sweep are independent."""
+        return self._reduced(np.sum, axis)
+
+    def _reduced(self, function: Callable, axis: int | None) -> "Estimate":
+        shape = np.shape(self.value)
+        if axis is None:
+            parts = [self[index] for index in np.ndindex(shape)]
+        else:
+            before = (slice(None),) * range(len(shape))[axis]
+            parts = [self[(*before, k)] for k in range(shape[axis])]
+        return combine(lambda *each: function(each, axis=0), *parts)
 
     def map(self, function: Callable) -> "Estimate":
         """A smooth function of it, element by element."""
@@ -202,8 +223,11 @@ def format_estimate(value: float, error: float) -> str:
     """Value with its error in units of the last digits, e.g. 0.3325(4).
 
     An error below 1e-6 of the value is one of rounding, of what is conserved: it is not shown.
+    Neither is that of a value that is not there.
     """
-    if not np.isfinite(error) or error <= 1e-6 * abs(value):
+    if np.isfinite(value) and not np.isfinite(error):
+        return f"{value:.6g}({error:g})"
+    if not np.isfinite(value) or error <= 1e-6 * abs(value):
         return f"{value:.6g}"
     digits = max(0, 1 - int(np.floor(np.log10(error))))
     shown = round(error * 10**digits)

@@ -24,7 +24,7 @@ REALIZATIONS = 8
         (0.5, 0.0, "0.5"),
         (1 - 1e-15, 4e-16, "1"),  # rounding of what is conserved
         (2.0, 3e-6, "2.0000000(30)"),
-        (0.5, np.nan, "0.5"),
+        (0.5, np.nan, "0.5(nan)"),
         (np.nan, np.nan, "nan"),
     ],
 )
@@ -191,3 +191,24 @@ def test_taken_apart_and_shown():
     assert float(Estimate(0.5, 0.1)) == 0.5
     assert repr(Estimate(0.33251, 0.00042)) == "Estimate(0.33251(42))"
     assert str(Estimate(np.array([1.0, 2.0]), np.array([0.1, 0.2]))) == "1.00(10)\n2.00(20)"
+
+
+def test_error_that_is_none():
+    """A value whose error is not known says so; a negative one is refused."""
+    assert str(Estimate(1.0, np.nan)) == "1(nan)"
+    assert str(Estimate(np.nan, np.nan)) == "nan"
+    with pytest.raises(ValueError, match=r"error = -0.1 is outside the allowed range \[0, inf\)"):
+        Estimate(1.0, -0.1)
+
+
+def test_mean_and_sum_of_a_sweep():
+    """Elements are independent: errors add in squares; of one gas they are one error."""
+    swept = Estimate(np.array([1.0, 2.0]), np.array([0.3, 0.4]))
+    for found in (np.sum(swept), swept.sum(axis=0)):
+        assert (found.value, found.error) == (pytest.approx(3.0), pytest.approx(0.5))
+    assert np.mean(swept).error == pytest.approx(0.25)
+    profile = Estimate(np.array([1.0, 2.0]), np.array([0.3, 0.4]), points=np.zeros(2, int))
+    assert np.sum(profile).error == pytest.approx(0.7)
+    rows = Estimate(np.ones((2, 3)), np.full((2, 3), 0.1))
+    assert rows.sum(axis=1).value == pytest.approx([3.0, 3.0])
+    assert rows.mean(axis=0).error == pytest.approx(np.full(3, 0.1 / np.sqrt(2)))

@@ -61,18 +61,18 @@ def row(scene: Studied, knob, setting, given: dict, truth: dict, *, quick: bool)
     made = scene.make(**given)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)  # what is tried is known to be off
-        jdsmc.run(made, **options | {clock: 1e-3})
-        while True:
-            began = time.process_time()
-            try:
+        try:
+            jdsmc.run(made, **options | {clock: 1e-3})
+            while True:
+                began = time.process_time()
                 result = jdsmc.run(made, seed=7, **options)
-            except jdsmc.FaultError as error:
-                print(f"no row: {error}", flush=True)
-                return []
-            cost = time.process_time() - began
-            if result.is_steady:
-                break
-            options[clock] *= LONGER
+                cost = time.process_time() - began
+                if result.is_steady:
+                    break
+                options[clock] *= LONGER
+        except jdsmc.FaultError as error:
+            print(f"no row: {error}", flush=True)
+            return []
     attrs = result.attrs
     steps = attrs["n_records"] * attrs["steps_per_record"]
     shared = {"scene": scene.name, "knob": knob, "setting": setting}

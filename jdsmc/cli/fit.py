@@ -5,6 +5,7 @@ from dataclasses import replace
 from functools import partial
 
 from ..fit.calibrate import USUAL, calibrate
+from ..fit.targets import SERIES
 from ..gases import ElasticHardSpheres, InelasticHardSpheres
 from ..scenarios import UniformShear
 from .arguments import Parser, add, joined_negatives
@@ -65,6 +66,11 @@ def fit(words: list[str]) -> int:
     check_files(given.get("out"), given.get("plot"))
     alpha = asked["restitution"]
     alpha = numbers("restitution", alpha) if isinstance(alpha, str) else alpha
+    if SERIES in asked["target"]:
+        raise ValueError(
+            f"target {asked['target']!r} is a whole transient; fit it in Python, by "
+            "jdsmc.fit.calibrate(..., duration=...)."
+        )
     rate = asked["shear_rate"]
     found = calibrate(
         UniformShear(InelasticHardSpheres(alpha), rate),

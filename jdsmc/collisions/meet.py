@@ -86,7 +86,7 @@ def meet(
     )
     relative = tuple(a - b for a, b in zip(left, right, strict=True))
     speed = root(sum(g * g for g in relative))
-    rate = gas.rate(speed)
+    rate = jnp.broadcast_to(gas.rate(speed), shape)
     probability = rate * factor
     accepted = uniforms[2] < probability
     outgoing = elastic_outgoing(relative, speed, uniforms[0], uniforms[1])

@@ -57,10 +57,10 @@ def plan_pairs(n_particles: int, time_step: float) -> PairPlan:
     rows = arrange(n_particles)
     hits = min(LARGEST_HITS, time_step * TYPICAL_MAJORANT / np.sqrt(2.0))
     # not above rows/8, where κ - κ² is largest; rounded up only if that leaves it there
-    first = min(int(np.ceil(rows * (hits - hits**2) / 2.0 - 1e-9)), rows // 8)
+    first = min(max(1, int(np.ceil(rows * (hits - hits**2) / 2.0 - 1e-9))), rows // 8)
     critical = PairPlan(rows, 1, first, 1).first_hits()
     second = int(np.ceil(rows * min(hits, critical) * critical / 2.0 - 1e-9))
-    return PairPlan(rows, n_particles // rows, first, min(second, first))
+    return PairPlan(rows, n_particles // rows, first, min(max(1, second), first))
 
 
 def arrange(n_particles: int) -> int:

@@ -23,6 +23,8 @@ def sensitivity(
     run. Formulas: docs/sensitivities.md.
     Raises ValueError for what is no number or cannot be had, and what `jdsmc.run` raises.
     """
+    if wrt is False:
+        raise ValueError("wrt = False asks for no derivatives; give names, or True for all.")
     if isinstance(scene, AbstractScene) and scene.in_space:
         return sensitivity_by_sweep(scene, wrt, **options)
     return run(scene, sensitivity=wrt, **options).sensitivity

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from .. import check
 from .. import sweep as sweeps
 from ..estimate import Estimate
 from ..results.result import Result
@@ -66,6 +67,8 @@ def calibrate(
         check_names(model, fit, scaled)
     alpha: Any = None if "restitution" in free else restitutions(reference, model)
     names = list(dict.fromkeys(name for fit in fits for name in fit.names))
+    if not isinstance(sweep, Result | None):
+        raise TypeError(f"sweep must be a result of elastic_sweep(model, ...), got {sweep!r}.")
     options = USUAL | options
     if fits[0].of_series:
         return _transients(reference, model, fits, free, options)
@@ -84,6 +87,9 @@ def calibrate(
         found = matches(alpha, fits, free, wanted, elastic, made)
         how = f"the elastic gas: {made.attrs['stopped']}"
     else:
+        for name, each in wanted.items():
+            if not np.all(np.isfinite(each[0].value)):
+                raise ValueError(f"the reference has no steady {name}, which is {each[0].value}.")
         ends = [newton(model, free, f, [wanted[n][0] for n in f.names], options) for f in fits]
         found, made = [match for match, _ in ends], ends[-1][1]
         how = f"Newton's method ended: {made.attrs['stopped']}"
@@ -109,7 +115,12 @@ def _free(free, target, fits: list[Target]) -> tuple[str, ...]:
     if free is None:
         several = not isinstance(target, str) and len(fits[0].names) > 1
         return FREE if several else FREE[:1]
-    return (free,) if isinstance(free, str) else tuple(free)
+    names = (free,) if isinstance(free, str) else free
+    if not isinstance(names, list | tuple) or not all(isinstance(one, str) for one in names):
+        raise TypeError(f"free = {free!r} is neither the name of a number nor a tuple of names.")
+    if len(set(names)) < len(names):
+        raise ValueError(f"free = {free!r} names a number twice; name each once.")
+    return tuple(names)
 
 
 def check_names(model: AbstractScene, fit: Target, scaled: bool) -> None:
@@ -163,7 +174,17 @@ def _wanted(reference, name: str, count: int) -> list[Estimate]:
         there = ", ".join(reference) or "no steady values"
         raise ValueError(f"the reference has no {name!r}; it has {there}.")
     one = reference[name]
-    one = one if isinstance(one, Estimate) else Estimate(np.asarray(one, float), 0.0 * one)
+    if not isinstance(one, Estimate):
+        given = check.physical(one)
+        if not isinstance(given, np.ndarray):
+            raise TypeError(
+                f"{name} = {one!r} of the reference is neither a number nor an Estimate."
+            )
+        one = Estimate(given, 0.0 * given)
+    if not np.all(np.isfinite(one.error) | np.isnan(one.value)):
+        raise ValueError(f"{name} of the reference has the error {one.error}; give a finite one.")
+    if np.any(np.asarray(one.value) == 0.0):
+        raise ValueError(f"{name} of the reference is 0, and misfits are relative; fit another.")
     if np.ndim(one.value) == 0:
         return [one] * count
     if np.shape(one.value) != (count,):

@@ -17,6 +17,9 @@ MOST_STEPS = 10
 NEAR = 0.05
 """Relative step after which the next value is the last: what is quadratic in it is below 0.3%."""
 
+SEEDS = 2**64
+"""Every run has the seed after that of the run before it."""
+
 LONGEST = 0.3
 """Longest relative step."""
 
@@ -35,11 +38,18 @@ def newton(
     last, seed = False, int(options.get("seed", 0))
     for turn in range(MOST_STEPS):
         here = replaced(model, dict(zip(free, numbers, strict=True)))
-        found = sensitivity(here, free, **(options | {"seed": seed + turn}))
+        found = sensitivity(here, free, **(options | {"seed": (seed + turn) % SEEDS}))
         made: Any = found.result
+        if any(name not in made for name in fit.names):
+            return nothing(
+                free, f"no steady value to fit: {made.attrs['stopped']}".rstrip(".")
+            ), made
         values = [made[name] for name in fit.names]
         slopes = np.array([[float(found[n][p].value) for p in free] for n in fit.names])
         doubt = np.array([[float(found[n][p].uncertainty) for p in free] for n in fit.names])
+        idle = [name for name, slope in zip(free, slopes.T, strict=True) if not np.any(slope)]
+        if idle:
+            return nothing(free, f"{fit.label} does not depend on {', '.join(idle)}"), made
         inverse = np.linalg.pinv(slopes * scale[:, None]) * scale
         miss = np.array([float(one.value) for one in values]) - goal
         step = -inverse @ miss

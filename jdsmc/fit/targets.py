@@ -6,6 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .. import check
+
 SERIES = "series/"
 """What the name of a whole transient begins with: the group of a file that holds it."""
 
@@ -32,6 +34,9 @@ def targets_of(target: str | Sequence[str], weights) -> list[Target]:
     `weights`: of the observables, in the order of the list, or by name; all 1 if None.
     Raises ValueError for an empty target and for weights that are not positive or not of these.
     """
+    words = [target] if isinstance(target, str) else target
+    if not isinstance(words, list | tuple) or not all(isinstance(one, str) for one in words):
+        raise TypeError(f"target = {target!r} is neither the name of an observable nor a list.")
     fits = target.split(",") if isinstance(target, str) else ["+".join(target)]
     found = []
     for label in fits:
@@ -44,6 +49,8 @@ def targets_of(target: str | Sequence[str], weights) -> list[Target]:
             raise ValueError(
                 f"target = {label!r} mixes steady values and series; fit them one by one."
             )
+        if any(fit.names == names for fit in found):
+            raise ValueError(f"target = {target!r} asks for {label!r} twice; ask once.")
         found.append(Target("+".join(names), names, _weights(names, weights)))
     return found
 
@@ -56,7 +63,12 @@ def _weights(names: tuple[str, ...], weights) -> tuple[float, ...]:
         if unknown:
             raise ValueError(f"weights has {unknown[0]!r}, which is no target.")
         weights = [weights.get(name, 1.0) for name in names]
-    values = tuple(float(one) for one in weights)
+    given = check.physical(weights)
+    if not isinstance(given, np.ndarray) or given.ndim != 1:
+        raise TypeError(
+            f"weights = {weights!r} must be {len(names)} positive numbers, one for each target."
+        )
+    values = tuple(map(float, given))
     if len(values) != len(names) or not all(np.isfinite(one) and one > 0 for one in values):
         raise ValueError(
             f"weights = {weights!r} must be {len(names)} positive numbers, one for each target."

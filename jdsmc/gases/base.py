@@ -13,6 +13,7 @@ from .. import sweep
 from ..fields import as_html, check_fields, text
 from ..units import INITIAL_TEMPERATURE
 from . import local
+from .rules import check_rules
 
 
 class AbstractGas(eqx.Module):
@@ -88,14 +89,19 @@ class AbstractGas(eqx.Module):
 
 
 def check_gas(gas) -> None:
-    """Raise TypeError for what is no gas."""
+    """Raise TypeError for what is no gas, and for one whose methods return nonsense."""
     if not isinstance(gas, AbstractGas):
         raise TypeError(f"gas must be a jdsmc gas, got {gas!r}.")
+    check_rules(gas)
 
 
 def check_share(gas: AbstractGas) -> None:
     """Raise ValueError for one gas whose `transfer_share` is not what it transfers."""
     share = gas.transfer_share()
+    if share is not None and (np.ndim(share) or np.asarray(share).dtype.kind not in "fiu"):
+        raise TypeError(
+            f"{type(gas).__name__}.transfer_share must return one number, or None; got {share!r}."
+        )
     if share is not None and not (gas.dimension == 3 and local.transfers(gas, share)):
         raise ValueError(
             f"{type(gas).__name__}.transfer_share gives {float(share):g}, and momentum_transfer is "

@@ -39,7 +39,8 @@ def relative_speeds(temperature, dimension: int) -> tuple[np.ndarray, np.ndarray
 def mean_over_pairs(gas, function, temperature):
     """Average of a function of the relative speed over pairs of a Maxwellian at T."""
     speeds, weights = relative_speeds(temperature, gas.dimension)
-    return np.sum(np.asarray(function(speeds), dtype=float) * weights, axis=-1)
+    values = np.broadcast_to(np.asarray(function(speeds), dtype=float), speeds.shape)
+    return np.sum(values * weights, axis=-1)
 
 
 def collision_rate(gas, temperature):

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from .. import views
+from .. import check, views
 from ..estimate import Estimate
 from ..files.writable import check_writable
 from . import stored
@@ -152,14 +152,21 @@ class Result:
             swept = ", ".join(self.dims) or "nothing"
             raise KeyError(f"{name} was not swept; swept: {swept}.")
         values = self.steady[name].values
+        if np.ndim(value) or (values.dtype.kind == "f") != isinstance(
+            check.physical(value), np.ndarray
+        ):
+            raise KeyError(f"{name} = {value!r} is not one of the values run, {self._run(values)}.")
         if values.dtype.kind == "f":
             found = np.flatnonzero(np.isclose(values, value, rtol=1e-6, atol=1e-12))
         else:
             found = np.flatnonzero(values == value)
         if not len(found):
-            there = [f"{one:.9g}" if values.dtype.kind == "f" else str(one) for one in values]
-            raise KeyError(f"{name} = {value} was not run; there are {', '.join(there)}.")
+            raise KeyError(f"{name} = {value} was not run; there are {self._run(values)}.")
         return int(found[0])
+
+    @staticmethod
+    def _run(values: np.ndarray) -> str:
+        return ", ".join(f"{x:.9g}" if values.dtype.kind == "f" else str(x) for x in values)
 
     def to_xarray(self) -> xr.DataTree:
         """Everything: steady values at the root, groups `series`, `distribution`, ..."""

@@ -26,13 +26,28 @@ class Derivative(Estimate):
         """Error and truncation together, √(error² + truncation²)."""
         return np.hypot(self.error, self.truncation)
 
+    def __getitem__(self, index) -> "Derivative":
+        """One element of an array, or some of them."""
+        part = super().__getitem__(index)
+        truncation = np.asarray(self.truncation)[index]
+        made = Derivative(part.value, part.error, truncation)
+        vars(made).update(vars(part))
+        return made
+
     def __repr__(self) -> str:
         return f"Derivative({self})"
 
     def __str__(self) -> str:
         if np.ndim(self.value):
-            return super().__str__()
+            return "\n".join(str(self[index]) for index in np.ndindex(np.shape(self.value)))
         return f"{format_estimate(float(self.value), float(self.error))} ±{self.truncation:.1g}"
+
+
+class ByNumber(dict):
+    """Derivatives by the name of the number."""
+
+    def __missing__(self, name):
+        raise KeyError(f"no derivative with respect to {name!r}; there are {', '.join(self)}.")
 
 
 class Sensitivity:
@@ -60,7 +75,7 @@ class Sensitivity:
     def __getitem__(self, name: str) -> Mapping[str, Derivative]:
         """Derivatives of one observable, by the number; KeyError says why there are none."""
         if name in self:
-            return {p: self._derivative(name, p) for p in self.parameters}
+            return ByNumber({p: self._derivative(name, p) for p in self.parameters})
         if not len(self):
             stopped = self.result.attrs.get("stopped", "the run was not steady")
             raise KeyError(f"no steady derivatives: {stopped}. See .series.")

@@ -116,7 +116,9 @@ class CoolingResponse(AbstractHomogeneous):
             self.gas.momentum_transfer(relative, outgoing)
             for outgoing in random_outgoing(key, relative, speed)
         )
-        rate = self.gas.rate(speed) * pairs_per_particle(velocity[0].size)
+        rate = jnp.broadcast_to(self.gas.rate(speed), speed.shape) * pairs_per_particle(
+            velocity[0].size
+        )
         return generator(velocity, left, right, rate, transfers)
 
     def averages(self, record: ResponseRecord) -> dict[str, np.ndarray]:

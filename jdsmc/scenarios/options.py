@@ -66,8 +66,8 @@ class Options:
         in_space: bool = False,
     ) -> "Options":
         """Check the options of `run` and lay out the particles; raises ValueError or TypeError."""
-        n_particles = check.whole("n_particles", n_particles, 64)
-        steps = check.whole("steps_per_record", steps, 1)
+        n_particles = check.sized("n_particles", n_particles, 64)
+        steps = check.sized("steps_per_record", steps, 1)
         check.scalar("time_step", time_step, 0.0, 1.0)
         check.one_of("splitting", splitting, ("strang", "lie"))
         kind = checked_dtype(dtype)
@@ -79,7 +79,7 @@ class Options:
 def checked_dtype(dtype) -> jnp.dtype:
     """float32 or float64, given by name or as a type; the latter needs JAX's x64 mode."""
     try:
-        name = np.dtype(dtype).name
+        name = dtype if dtype is None else np.dtype(dtype).name
     except (TypeError, ValueError):
         name = dtype
     check.one_of("dtype", name, ("float32", "float64"))

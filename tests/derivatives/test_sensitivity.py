@@ -120,6 +120,11 @@ def test_sweep_and_series():
     # -0.5200(5) at 0.7 by differences of long runs; less where the gas is more inelastic
     assert abs(one.value[1] + 0.52) < 4 * one.uncertainty[1] < 0.2
     assert -0.52 < one.value[0] < 0
+    assert one[1].truncation == one.truncation[1] and "±" in repr(one)
+    with pytest.raises(
+        KeyError, match="no derivative with respect to 'foo'; there are restitution"
+    ):
+        result.sensitivity["shear_stress"]["foo"]
     at = result.at(restitution=0.7).sensitivity["shear_stress"]["restitution"]
     assert at.value == one.value[1]
     series = result.sensitivity.series
@@ -143,6 +148,7 @@ def test_off_unless_asked():
         (UniformShear(ElasticHardSpheres(0.7), 1.0), "rate_factor", "word 'linear'"),
         (UniformShear(InelasticHardSpheres(0.7), 1.0), "nothing", "no physical number"),
         (UniformShear(InelasticHardSpheres(0.7), 1.0), (), "empty"),
+        (UniformShear(InelasticHardSpheres(0.7), 1.0), False, "asks for no derivatives"),
         (NavierStokes(InelasticHardSpheres(0.7)), "restitution", "moment_drift"),
     ],
 )

@@ -55,6 +55,24 @@ def nothing_runs(monkeypatch):
         (ValueError, "has no 'shear_stress'", {"a2": Estimate(0.1, 0.01)}, MODEL, {}),
         (ValueError, "one value for each", {"shear_stress": np.ones(3)}, MODEL, {}),
         (ValueError, "needs duration", REFERENCE, MODEL, {"target": "series/shear_stress"}),
+        (TypeError, "target", REFERENCE, MODEL, {"target": None}),
+        (TypeError, "target", REFERENCE, MODEL, {"target": [3]}),
+        (ValueError, "'a2' twice", REFERENCE, MODEL, {"target": "a2,a2"}),
+        (TypeError, "free", REFERENCE, MODEL, {"free": 3}),
+        (
+            *(ValueError, "names a number twice", REFERENCE, MODEL),
+            {"target": ["a2", "a3"], "free": ("rate_factor", "rate_factor")},
+        ),
+        (TypeError, "weights", REFERENCE, MODEL, {"weights": "a"}),
+        (TypeError, "weights", REFERENCE, MODEL, {"weights": 2.0}),
+        (TypeError, "sweep", REFERENCE, MODEL, {"sweep": 3}),
+        (TypeError, "neither a number nor", {"shear_stress": "a"}, MODEL, {}),
+        (ValueError, "has the error nan", {"shear_stress": Estimate(0.5, np.nan)}, MODEL, {}),
+        (ValueError, "is 0, and misfits are relative", {"shear_stress": 0.0}, MODEL, {}),
+        (
+            *(ValueError, "has no steady shear_stress", {"shear_stress": np.nan}, MODEL),
+            {"free": "restitution"},
+        ),
     ],
 )  # fmt: skip
 def test_sentences(kind, words, reference, model, options):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import jdsmc
-from jdsmc import ElasticHardSpheres, InelasticHardSpheres
+from jdsmc import ElasticHardSpheres, Estimate, InelasticHardSpheres
 from jdsmc.fit import calibrate, elastic_sweep
 from jdsmc.scenarios import UniformShear
 
@@ -74,6 +74,20 @@ def test_newton_finds_what_scaling_finds():
     )
     assert abs(one["restitution"].distance(0.7)[0]) < 4.0
     assert one["restitution"].error[0] < 0.01
+
+
+def test_newton_says_what_cannot_be_found():
+    """A number that nothing depends on, a run too short to be steady, and seeds at their end."""
+    small = {"n_particles": 512, "progress": False, "seed": 2**64 - 1}
+    wanted, model = (
+        {"shear_stress": Estimate(0.3, 0.001)},
+        UniformShear(ElasticHardSpheres(0.5), 4.0),
+    )
+    found = calibrate(wanted, model, free="shear_rate", rtol=0.05, **small)
+    assert np.isnan(found["shear_rate"].value)
+    assert "shear_stress does not depend on shear_rate" in found.attrs["remarks"]
+    found = calibrate(wanted, model, free="restitution", collisions=5.0, **small)
+    assert np.isnan(found["restitution"].value) and "no steady value" in found.attrs["remarks"]
 
 
 @pytest.mark.slow

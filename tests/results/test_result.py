@@ -99,6 +99,9 @@ def test_one_point_of_a_sweep(sweep):
         np.testing.assert_array_equal(one[name].value, sweep[name].value[1])
         np.testing.assert_array_equal(one[name].error, sweep[name].error[1])
     assert one.series["temperature"].dims == ("sample",)
+    for odd in ("x", None, slice(None), [0.6, 0.8], True):
+        with pytest.raises(KeyError, match=r"is not one of the values run, 0\.6, 0\.8"):
+            sweep.at(restitution=odd)
     with pytest.raises(KeyError, match=r"restitution = 0\.7 was not run; there are 0\.6, 0\.8"):
         sweep.at(restitution=0.7)
     with pytest.raises(KeyError, match="shear_rate was not swept; swept: restitution"):

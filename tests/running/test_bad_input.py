@@ -30,6 +30,8 @@ from .small import assert_same, scene, simulate
         ({"time_step": 2.0}, "time_step = 2"),
         ({"observable": "viscosity"}, "observable = 'viscosity' .*reduced_viscosity"),
         ({"steps_per_record": 0}, "steps_per_record = 0"),
+        ({"n_particles": 2**40}, r"n_particles = 1099511627776 .*\[64, 2\^31\)"),
+        ({"steps_per_record": 2**31}, r"steps_per_record = 2147483648 .*2\^31"),
     ],
 )
 def test_bad_options(options, words, monkeypatch):
@@ -69,6 +71,17 @@ def test_what_only_looks_odd():
     assert_same(odd, plain)
     assert odd.attrs == plain.attrs
     assert type(odd.attrs["seed"]) is type(odd.attrs["n_particles"]) is int
+
+
+def test_the_shortest_time_steps():
+    """Pairs are too few to be counted in rows: one row is laid out, and hardly any is taken."""
+    result = simulate(duration=1e-11, time_step=1e-12)
+    assert 0 < float(result.series["time"][-1]) < 1e-9
+
+
+def test_masked_numbers_are_no_numbers():
+    with pytest.raises(TypeError, match=r"(?s)restitution = .* is not a number"):
+        jdsmc.InelasticHardSpheres(np.ma.array([0.5, 0.7], mask=[False, True]))
 
 
 @pytest.mark.parametrize("name", ["n_particles", "n_realizations", "seed", "steps_per_record"])
