@@ -2,7 +2,6 @@
 
 import jax
 import jax.core
-import jax.numpy as jnp
 import numpy as np
 
 from .. import sweep
@@ -27,8 +26,7 @@ def check_rules(gas) -> None:
 
 
 def _check_rate(gas, name: str) -> None:
-    speeds = jnp.asarray(PROBES, jnp.float32)
-    every, first = gas.rate(speeds), gas.rate(speeds[:1])
+    every, first = gas.rate(PROBES), gas.rate(PROBES[:1])
     rates = _numbers(f"{name}.rate must return a real number for each relative speed", every)
     if rates.shape not in {(), PROBES.shape}:
         raise TypeError(
@@ -53,9 +51,8 @@ def _check_rate(gas, name: str) -> None:
 
 
 def _check_transfer(gas, name: str) -> None:
-    speeds = jnp.asarray(PROBES, jnp.float32)
-    none = (jnp.zeros_like(speeds),) * (gas.dimension - 1)
-    relative, outgoing = (speeds, *none), (0.6 * speeds, 0.8 * speeds, *none[1:])
+    none = (np.zeros_like(PROBES),) * (gas.dimension - 1)
+    relative, outgoing = (PROBES, *none), (0.6 * PROBES, 0.8 * PROBES, *none[1:])
     found = gas.momentum_transfer(relative, outgoing)
     must = (
         f"{name}.momentum_transfer must return {gas.dimension} components, an array of real "
