@@ -85,12 +85,7 @@ def at_least(name, value, low) -> None:
     whole(name, value, low)
 
 
-def size(name, value, low) -> None:
-    """The same, and that no array is too large for it."""
-    sized(name, value, low)
-
-
-def sized(name, value, low) -> int:
+def size(name, value, low) -> int:
     """As `whole`, of a value that no array is too large for."""
     found = whole(name, value, low)
     if found >= MOST:

@@ -48,25 +48,28 @@ def _mode() -> dict[str, float]:
     return {name: float(getattr(mode, name)) for name in names} | {"temperature": 1.0}
 
 
-def _disks(copies=None, real_per_cell=None, **_):
-    sizes = {"copies": copies, "real_per_cell": real_per_cell}
-    given = {name: value for name, value in sizes.items() if value is not None}
-    return CoolingDisks(InelasticHardDisks(0.8), density=0.01, **given)
+def _sizes(given: dict, *names: str) -> dict:
+    """Those of the given settings that are the scene's own."""
+    return {name: given[name] for name in names if name in given}
 
 
-def _slab(layers=None, **_):
-    sizes = {} if layers is None else {"layers": layers}
-    return ShearedSlab(GAS, 4.0, 2.5, **sizes)
+def _disks(**given):
+    own = _sizes(given, "copies", "real_per_cell")
+    return CoolingDisks(InelasticHardDisks(0.8), density=0.01, **own)
 
 
-def _fourier(layers=None, **_):
-    sizes = {} if layers is None else {"layers": layers}
-    return FourierFlow(InelasticHardSpheres(1.0), length=10.0, cold_temperature=0.5, **sizes)
+def _slab(**given):
+    return ShearedSlab(GAS, 4.0, 2.5, **_sizes(given, "layers"))
 
 
-def _couette(layers=None, **_):
-    sizes = {} if layers is None else {"layers": layers}
-    return CouetteFlow(InelasticHardSpheres(1.0), wall_velocity=0.8, length=4.0, **sizes)
+def _fourier(**given):
+    own = _sizes(given, "layers")
+    return FourierFlow(InelasticHardSpheres(1.0), length=10.0, cold_temperature=0.5, **own)
+
+
+def _couette(**given):
+    own = _sizes(given, "layers")
+    return CouetteFlow(InelasticHardSpheres(1.0), wall_velocity=0.8, length=4.0, **own)
 
 
 STEPS = (0.0125, 0.025, 0.05, 0.1, 0.2)

@@ -206,13 +206,14 @@ class HeatFluxForce(AbstractHomogeneous):
 
     def remarks(self, series: dict[str, np.ndarray], weights: np.ndarray) -> str:
         """Which averages hang on particles so rare that their scatter does not tell their error."""
-        highest = self.tail_exponent() / MOMENTS_OF_ERROR
+        exponent = self.tail_exponent()
+        highest = exponent / MOMENTS_OF_ERROR
         doubted = [name for name, order in ORDERS.items() if order > highest]
         if not doubted:
             return ""
         return (
             f"field = {float(self.field):g} stretches the tail of fast particles to a power law "
-            f"of exponent {self.tail_exponent():.0f}: averages of more than "
+            f"of exponent {exponent:.0f}: averages of more than "
             f"{highest:.1f} powers of the speed hang on rare particles, and the errors of "
             f"{', '.join(doubted)} may be too small. Take a smaller field for them."
         )

@@ -66,8 +66,8 @@ class Options:
         in_space: bool = False,
     ) -> "Options":
         """Check the options of `run` and lay out the particles; raises ValueError or TypeError."""
-        n_particles = check.sized("n_particles", n_particles, 64)
-        steps = check.sized("steps_per_record", steps, 1)
+        n_particles = check.size("n_particles", n_particles, 64)
+        steps = check.size("steps_per_record", steps, 1)
         check.scalar("time_step", time_step, 0.0, 1.0)
         check.one_of("splitting", splitting, ("strang", "lie"))
         kind = checked_dtype(dtype)
