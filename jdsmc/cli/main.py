@@ -39,15 +39,16 @@ COMPUTING = ("run", "sweep", "resume", "fit")
 def main(arguments: list[str] | None = None) -> int:
     """Run a command; returns the exit status.
 
-    0; 1 for a run that cannot be trusted or a result that cannot be shown; 2, with one sentence,
-    for bad input; 130 after Ctrl-C or SIGTERM, which end a run after the present chunk with what
-    there is. A reader that has seen enough (`jdsmc show f | head`) ends the printing silently.
+    0; 1 for a run that cannot be trusted, has no room, or whose result cannot be shown; 2, with one
+    sentence, for bad input; 130 after Ctrl-C or SIGTERM, which end a run after the present chunk
+    with what there is. A reader that has seen enough (`jdsmc show f | head`) ends the printing
+    silently.
     """
     never_fail_to_print()
     try:
         status = command(list(sys.argv[1:] if arguments is None else arguments))
         print(end="", flush=True)  # unlike sys.stdout.flush, also if whoever called has closed it
-    except FaultError as error:
+    except (FaultError, MemoryError) as error:
         return told(error, 1)
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # else Python complains

@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from jax import lax
 
 from .. import random
-from ..gases.base import AbstractGas
+from ..gases.base import AbstractGas, pair_rate
 from ..gases.scatter import elastic_outgoing, root
 from ..types import Key, Particles, Scalar
 
@@ -86,7 +86,7 @@ def meet(
     )
     relative = tuple(a - b for a, b in zip(left, right, strict=True))
     speed = root(sum(g * g for g in relative))
-    rate = jnp.broadcast_to(gas.rate(speed), shape)
+    rate = pair_rate(gas, speed)
     probability = rate * factor
     accepted = uniforms[2] < probability
     outgoing = elastic_outgoing(relative, speed, uniforms[0], uniforms[1])

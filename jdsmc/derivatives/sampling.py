@@ -15,7 +15,7 @@ from jax import lax
 
 from .. import random
 from ..collisions.sampled import pairs_per_particle, random_pairs, sampling_key
-from ..gases import AbstractGas
+from ..gases.base import AbstractGas, pair_rate
 from ..measure.polynomials import Powers, Symmetry
 from ..motion.drive import centred, temperature_of
 from ..types import Key, Scalar, Velocity
@@ -93,7 +93,7 @@ class Sampler(NamedTuple):
         def changes(arrays):
             """Rate times change of every φ_k, and the rate: (trial + 1, pairs)."""
             gas = eqx.combine(arrays, rest)
-            rate = gas.rate(speed * reference) * jnp.ones_like(speed) * per_particle
+            rate = pair_rate(gas, speed * reference) * per_particle
             then = after(symmetry, basis, key, gas, pair, reference)
             each = (rate * (a - b) for a, b in zip(then, before, strict=True))
             return _matrix([*each, rate])

@@ -7,7 +7,9 @@ from abc import abstractmethod
 from typing import Any, ClassVar
 
 import equinox as eqx
+import jax.numpy as jnp
 import numpy as np
+from jaxtyping import Array
 
 from .. import sweep
 from ..fields import as_html, check_fields, text
@@ -93,6 +95,14 @@ def check_gas(gas) -> None:
     if not isinstance(gas, AbstractGas):
         raise TypeError(f"gas must be a jdsmc gas, got {gas!r}.")
     check_rules(gas)
+
+
+def pair_rate(gas: AbstractGas, speed: Array) -> Array:
+    """The rate of pairs, of the shape and type of their relative speeds; traced.
+
+    A gas whose rate does not depend on the speed may state one number.
+    """
+    return jnp.broadcast_to(jnp.asarray(gas.rate(speed), speed.dtype), speed.shape)
 
 
 def check_share(gas: AbstractGas) -> None:

@@ -10,6 +10,7 @@ from ..derivatives.request import Request, requested
 from ..results.result import Result
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
+from ..scenarios.rules import check_methods
 from ..types import Whole
 from .checkpoint import EVERY, Keeper
 from .going import go_on
@@ -79,6 +80,7 @@ def run(
             the warm-up alone needs more.
         FaultError: lost collisions or numbers that are not finite. Both have `.result`, what was
             measured until then, or None.
+        MemoryError: the gases do not fit into the memory of the device.
         FileExistsError: there is a file of the checkpoint's name.
     Ctrl-C, or SIGTERM, ends the run after the present chunk and returns what was measured.
     """
@@ -87,6 +89,7 @@ def run(
     request = None if sensitivity is False else requested(scene, scenes, sensitivity, along=along)
     options = options_of(scenes, n_particles, time_step, splitting, dtype, steps_per_record)
     scenes = [one.prepared() for one in scenes]
+    check_methods(scenes[0], options)
     limits = Limits(
         scenes,
         options,

@@ -16,6 +16,7 @@ from .estimates import printed_estimates, realization_estimates, steady_changes
 from .history import History
 from .host_engine import HostEngine
 from .limits import Limits
+from .memory import room_for
 from .steady import tracker_for
 
 PATIENCE, SLACK = 10.0, 1_000.0
@@ -43,11 +44,13 @@ class Session:
         sampler = None if request is None else request.sampler
         self.samples = None if sampler is None else Samples(sampler)
         keep_programs()
-        self.engine = (
-            Engine(scenes, n_realizations, seed, options, sampler)
-            if scenes[0].traced
-            else HostEngine(scenes, n_realizations, seed, options)
-        )
+        self.gases = len(scenes) * n_realizations
+        with room_for(self.gases, options):
+            self.engine = (
+                Engine(scenes, n_realizations, seed, options, sampler)
+                if scenes[0].traced
+                else HostEngine(scenes, n_realizations, seed, options)
+            )
         self.history = History(scenes, options.n_particles, options.steps)
         drift = None if scenes[0].correlated else steady_changes
         self.correlated = scenes[0].correlated
@@ -99,7 +102,8 @@ class Session:
         """One chunk, its faults checked, and the steady state looked for."""
         sampler = None if self.samples is None else self.samples.sampler
         watch = sampler is not None and (sampler.each or self.tracker.may_be_measured)
-        record, sample = self.engine.advance(watch)
+        with room_for(self.gases, self.options):
+            record, sample = self.engine.advance(watch)
         faults.check_record(self.history, record)
         faults.check_collisions(self.history, record)
         if self.samples is not None and watch:

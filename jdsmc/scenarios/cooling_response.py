@@ -18,6 +18,7 @@ from ..collisions.sampled import (
 )
 from ..fields import derived
 from ..gases import AbstractGas
+from ..gases.base import pair_rate
 from ..measure.linear_response import ORDER, Generator, coefficients, generator
 from ..measure.moments import moments
 from ..measure.observable import Observable
@@ -116,9 +117,7 @@ class CoolingResponse(AbstractHomogeneous):
             self.gas.momentum_transfer(relative, outgoing)
             for outgoing in random_outgoing(key, relative, speed)
         )
-        rate = jnp.broadcast_to(self.gas.rate(speed), speed.shape) * pairs_per_particle(
-            velocity[0].size
-        )
+        rate = pair_rate(self.gas, speed) * pairs_per_particle(velocity[0].size)
         return generator(velocity, left, right, rate, transfers)
 
     def averages(self, record: ResponseRecord) -> dict[str, np.ndarray]:

@@ -15,6 +15,7 @@ import numpy as np
 
 from ..fields import number
 from ..gases import AbstractGas
+from ..gases.base import pair_rate
 from ..gases.hard_spheres import loses_energy
 from ..measure import couette
 from ..measure.observable import Observable
@@ -135,7 +136,7 @@ class CouetteFlow(AbstractWalled):
         velocity = (vx + self.wall_velocity * (place / self.length - 0.5), vy, vz)
         fast = jnp.asarray(FIRST_SPEED, options.dtype) + self.wall_velocity
         fast = fast + jnp.abs(self.driven())
-        crowding = FIRST_DENSITY * self.gas.rate(fast)
+        crowding = FIRST_DENSITY * pair_rate(self.gas, fast)
         none = Exchange.none(options.dtype)
         return WalledState(place, velocity, crowding, self.walls(), none)
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..fields import choice, number
 from ..gases import AbstractGas, ElasticHardSpheres
-from ..gases.base import check_gas, conserves_energy, power_law, speed_exponent
+from ..gases.base import check_gas, conserves_energy, pair_rate, power_law, speed_exponent
 from ..measure import conduction
 from ..measure.observable import Observable
 from ..motion.flight import Exchange
@@ -107,7 +107,8 @@ class FourierFlow(AbstractWalled):
     def initial(self, key: Key, options: Options) -> WalledState:
         """Local equilibrium with n ∝ 1/T and T^{3/2} linear between the walls: eq. (31)."""
         gas = conducting(key, options, self.cold_temperature, self.length)
-        crowding = FIRST_DENSITY * self.gas.rate(jnp.asarray(FIRST_SPEED, options.dtype))
+        fast = jnp.asarray(FIRST_SPEED, options.dtype)
+        crowding = FIRST_DENSITY * pair_rate(self.gas, fast)
         return WalledState(*gas, crowding, self.walls(), Exchange.none(options.dtype))
 
     def walls(self) -> Walls:

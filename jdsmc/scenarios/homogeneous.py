@@ -13,7 +13,7 @@ from ..collisions.bound import FASTEST_PAIR
 from ..collisions.meet import Collisions
 from ..collisions.pairs import remix
 from ..collisions.whole import collide
-from ..gases.base import check_share
+from ..gases.base import check_share, pair_rate
 from ..measure.balance import Balance, balance_of, balances, noise_of, squares, without_noise
 from ..measure.distributions import (
     DISTRIBUTIONS,
@@ -62,7 +62,7 @@ def maxwellian(key: Key, options: Options, gas, temperature: float) -> Homogeneo
 
 def first_majorant(gas, dtype) -> Scalar:
     """The rate of a pair so fast that a Maxwellian hardly has a faster one."""
-    return gas.rate(jnp.asarray(FASTEST_PAIR, dtype)) * jnp.ones((), dtype)
+    return pair_rate(gas, jnp.asarray(FASTEST_PAIR, dtype))
 
 
 class HomogeneousRecord(Record):

@@ -19,6 +19,7 @@ from ..collisions.bound import FASTEST_PAIR
 from ..collisions.meet import Collisions
 from ..fields import choice, count, number
 from ..gases import AbstractGas, ElasticHardSpheres
+from ..gases.base import pair_rate
 from ..gases.hard_spheres import loses_energy
 from ..measure.distributions import DISTRIBUTIONS, Distributions, bin_centres, over_slab
 from ..measure.observable import Observable
@@ -162,7 +163,7 @@ class ShearedSlab(AbstractSlab):
             self.initial_state, random.fold_in(key, 1), number, dtype
         )
         velocity = (vx + initial_flow.flow(self.initial_state, place, difference), vy, vz)
-        crowding = FIRST_CROWDING * self.gas.rate(FASTEST_PAIR + difference)
+        crowding = FIRST_CROWDING * pair_rate(self.gas, FASTEST_PAIR + difference)
         return SlabState(place * self.length, velocity, crowding)
 
     def wanted_step(self, moments: Stresses, options: Options) -> Scalar:

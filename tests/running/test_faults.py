@@ -1,6 +1,7 @@
 """Runs that cannot be trusted end with a sentence, and with what was measured until then."""
 
 import equinox as eqx
+import jax
 import numpy as np
 import pytest
 
@@ -87,3 +88,26 @@ def test_lost_collisions_are_raised(name, words):
     check_tally(**{name: 0.99e-4})
     with pytest.raises(jdsmc.FaultError, match=rf"{words} .*reduce time_step"):
         check_tally(**{name: 1.01e-4})
+
+
+@pytest.mark.parametrize(
+    "error", [jax.errors.JaxRuntimeError("RESOURCE_EXHAUSTED: 9 GiB"), MemoryError()]
+)
+def test_no_room(error, monkeypatch):
+    """Whoever has no room is told what to make smaller."""
+
+    def full(*_):
+        raise error
+
+    monkeypatch.setattr(Engine, "advance", full)
+    with pytest.raises(MemoryError, match=r"8 gases of 512 particles .* fewer n_particles"):
+        simulate(collisions=5.0)
+
+
+def test_another_error_of_the_device_stays_what_it_is(monkeypatch):
+    def broken(*_):
+        raise jax.errors.JaxRuntimeError("INTERNAL: no such thing")
+
+    monkeypatch.setattr(Engine, "advance", broken)
+    with pytest.raises(jax.errors.JaxRuntimeError, match="INTERNAL"):
+        simulate(collisions=5.0)

@@ -229,3 +229,76 @@ def test_what_is_reported_must_be_returned(until):
 def test_what_is_monitored_must_be_averaged():
     with pytest.raises(jdsmc.FaultError, match="averages lacks entropy, which it monitors"):
         jdsmc.run(Blind(jdsmc.InelasticHardSpheres(1.0)), rtol=0.1, **SMALL)
+
+
+# Scenes whose methods return what a step cannot go on with
+
+
+def velocities_only(scene, key, velocity, *rest):
+    return scene.collide(key, velocity, *rest)[0]
+
+
+def one_component(scene, key, velocity, *rest):
+    after, tally = scene.collide(key, velocity, *rest)
+    return after[0], tally
+
+
+def no_tally(scene, key, velocity, *rest):
+    return scene.collide(key, velocity, *rest)[0], None
+
+
+def fewer(scene, key, velocity, *rest):
+    after, tally = scene.collide(key, velocity, *rest)
+    return tuple(v[::2] for v in after), tally
+
+
+def whole_numbers(scene, key, velocity, *rest):
+    after, tally = scene.collide(key, velocity, *rest)
+    return tuple(jnp.round(v).astype(jnp.int32) for v in after), tally
+
+
+def nothing(*_):
+    return None
+
+
+STEPS = (velocities_only, one_component, no_tally, fewer, whole_numbers, nothing)
+
+
+@pytest.mark.parametrize("step", STEPS)
+def test_a_step_of_the_wrong_kind_is_named(step):
+    wrong = type("Wrong", (Still,), {"step": step, "__module__": __name__})
+    with pytest.raises(TypeError, match=r"Wrong\.step must return \(velocity, tally\).*; got "):
+        jdsmc.run(wrong(jdsmc.InelasticHardSpheres(0.9)), collisions=1.0, **SMALL)
+
+
+def positions_only(scene, key, state, duration):
+    return state.position
+
+
+def doubled(scene, key, state, duration):
+    return replace(state, position=jnp.concatenate([state.position] * 2))
+
+
+def of_each(scene, moments, options):
+    return jnp.ones(scene.layers)
+
+
+def unchanged(scene, state):
+    return state
+
+
+METHODS = [
+    ("move", positions_only, "the state with arrays as they came in"),
+    ("move", doubled, "the state with arrays as they came in"),
+    ("wanted_step", of_each, "one number; got float32"),
+    ("initial", lambda scene, key, options: key, "a SlabState or what derives from it; got Key"),
+    ("advance", lambda scene, key, state, options: (state, state), "a Record"),
+    ("finish_chunk", unchanged, r"\(state, sample\)"),
+]
+
+
+@pytest.mark.parametrize(("name", "method", "must"), METHODS)
+def test_a_method_of_the_wrong_kind_is_named(name, method, must):
+    wrong = type("Wrong", (Mixing,), {name: method, "__module__": __name__})
+    with pytest.raises(TypeError, match=rf"Wrong\.{name} must return .*{must}"):
+        jdsmc.run(wrong(jdsmc.InelasticHardSpheres(1.0)), collisions=1.0, **SMALL)
