@@ -1,9 +1,10 @@
 """What is sampled of a gas for its derivatives: sums over particles and pairs, on the device.
 
-Pairs of different particles are drawn from the present velocities, several partners of each, and
-scattered in all directions or in a random one and its opposite (`after`). All velocities are
-divided by a thermal speed before powers are taken, so that float32 is enough; the host multiplies
-it back.
+Pairs of different particles are drawn from the present velocities, and scattered in all directions
+or in a random one and its opposite (`after`). The distribution has a symmetry: the second particle
+might as well have any of the mirrored velocities, `Symmetry.images`, with which the pair is looked
+at too. All velocities are divided by a thermal speed before powers are taken, so that float32 is
+enough; the host multiplies it back.
 """
 
 from typing import Any, NamedTuple
@@ -11,19 +12,17 @@ from typing import Any, NamedTuple
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jax import lax
 
 from .. import random
 from ..collisions.sampled import pairs_per_particle, random_pairs, sampling_key
 from ..gases.base import AbstractGas, pair_rate
 from ..measure.polynomials import Powers, Symmetry
 from ..motion.drive import centred, temperature_of
-from ..types import Key, Scalar, Velocity
+from ..types import Key, Particles, Scalar, Velocity
 from .after import after, both
 from .numbers import tangent
 
-PAIRINGS = 2
-"""Partners of each particle in a sample: the noise is that of pairs much more than of particles."""
+Pair = tuple[Particles, Particles]
 
 
 class Sampler(NamedTuple):
@@ -73,44 +72,54 @@ class Sampler(NamedTuple):
             "moments": _average(values),
             "second": values @ values[:trial].T / count,
         }
-
-        def one(_, own):
-            return None, self._of_pairs(own, gas, velocity, reference)
-
-        keys = [random.fold_in(sampling_key(key), k) for k in range(PAIRINGS)]
-        _, each = lax.scan(one, None, jax.tree.map(lambda *words: jnp.stack(words), *keys))
-        return sums | jax.tree.map(lambda x: jnp.mean(x, axis=0), each)
+        return sums | self._of_pairs(sampling_key(key), gas, velocity, reference)
 
     def _of_pairs(self, key: Key, gas, velocity: Velocity, reference) -> dict:
-        pair = random_pairs(key, velocity)
-        speed = jnp.sqrt(sum((a - b) ** 2 for a, b in zip(*pair, strict=True)))
-        symmetry, basis = self.symmetry, self.basis
-        before = both(symmetry, basis, *pair)
-        per_particle = pairs_per_particle(velocity[0].size)
-
+        left, right = random_pairs(key, velocity)
+        images = [
+            (left, tuple(sign * v for sign, v in zip(signs, right, strict=False)))  # disks: two
+            for signs in self.symmetry.images
+        ]
+        before = both(self.symmetry, self.basis, left, right)  # the same for all images
         arrays, rest = eqx.partition(gas, eqx.is_array)
 
         def changes(arrays):
-            """Rate times change of every φ_k, and the rate: (trial + 1, pairs)."""
+            """Rate times change of every φ_k, and the rate: (trial + 1, pairs), over images."""
             gas = eqx.combine(arrays, rest)
-            rate = pair_rate(gas, speed * reference) * per_particle
-            then = after(symmetry, basis, key, gas, pair, reference)
-            each = (rate * (a - b) for a, b in zip(then, before, strict=True))
-            return _matrix([*each, rate])
+            found = [
+                self._changes(random.fold_in(key, number), gas, pair, before, reference)
+                for number, pair in enumerate(images)
+            ]
+            return pairs_per_particle(velocity[0].size) * _mean(found)
 
         # the changes are worked out once, for all tangents too
         rates, along = jax.linearize(changes, arrays)
         found = [_average(along(tangent(arrays, path))) for path in self.paths]
         sums = _matrix(before)
-        cubed = (speed * speed * speed).reshape(1, -1)
-        pairs = speed.size
+        cubed = _mean([_speed(pair) ** 3 for pair in images]).reshape(1, -1)
+        pairs = cubed.size
         return {
             "source": _average(rates),
             "response": rates @ sums.T / pairs,
             "cubed": _average(cubed)[0],
             "cubed_response": (cubed @ sums.T / pairs)[0],
-            "tangents": jnp.stack(found) if found else jnp.zeros((0, len(basis) + 1)),
+            "tangents": jnp.stack(found) if found else jnp.zeros((0, len(self.basis) + 1)),
         }
+
+    def _changes(self, key: Key, gas, pair: Pair, before: list, reference):
+        speed = _speed(pair)
+        rate = pair_rate(gas, speed * reference)
+        then = after(self.symmetry, self.basis, key, gas, pair, reference)
+        return _matrix([*(rate * (a - b) for a, b in zip(then, before, strict=True)), rate])
+
+
+def _speed(pair: Pair):
+    """The relative speed."""
+    return jnp.sqrt(sum((a - b) ** 2 for a, b in zip(*pair, strict=True)))
+
+
+def _mean(values: list):
+    return sum(values) / len(values)
 
 
 def _matrix(values: list) -> Any:

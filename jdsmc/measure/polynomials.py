@@ -25,7 +25,8 @@ class Symmetry(NamedTuple):
     `factors` of a velocity, their degrees, and of how many components each is made (a factor of
     degree 2 is the sum of their squares); `even`: only even total degrees; `rows`: largest
     degree of the averages that are followed; `squares`: powers whose sum is V²; `moments`: the
-    moments of `measure.moments` from the averages of the polynomials.
+    moments of `measure.moments` from the averages of the polynomials; `images`: signs of the
+    components of velocities that are as likely as one, itself included.
     """
 
     factors: Callable[[Particles], tuple]
@@ -35,6 +36,7 @@ class Symmetry(NamedTuple):
     rows: int
     squares: tuple[Powers, ...]
     moments: Callable[["Averages", int], Any]
+    images: tuple[tuple[int, ...], ...]
 
     def degree(self, powers: Powers) -> int:
         """Of one polynomial in the velocity."""
@@ -171,14 +173,20 @@ def _isotropic_factors(velocity: Particles) -> tuple:
 SHEARED = Symmetry(
     *(_sheared_factors, (1, 1, 2), (1, 1, 1), True, 6),
     *(((2, 0, 0), (0, 2, 0), (0, 0, 1)), _sheared_moments),
+    ((1, 1, 1), (-1, -1, -1)),
 )
 """Even in v_z, and under reversal of the velocity: v_x^i v_y^j (v_z²)^l with i + j even."""
 
 AXIAL = Symmetry(
     *(_axial_factors, (1, 2), (1, 2), False, 7),
     *(((2, 0), (0, 1)), _axial_moments),
+    ((1, 1, 1), (1, -1, -1)),
 )
 """About the x axis: v_x^i (v_y² + v_z²)^j."""
 
-ISOTROPIC = Symmetry(_isotropic_factors, (2,), (3,), True, 6, ((1,),), _isotropic_moments)
+ISOTROPIC = Symmetry(
+    *(_isotropic_factors, (2,), (3,), True, 6),
+    *(((1,),), _isotropic_moments),
+    ((1, 1, 1), (-1, -1, -1)),
+)
 """V^{2n}."""

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from typing import Any, ClassVar
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
@@ -276,7 +277,7 @@ def positions_only(scene, key, state, duration):
 
 
 def doubled(scene, key, state, duration):
-    return replace(state, position=jnp.concatenate([state.position] * 2))
+    return jax.tree.map(lambda x: jnp.concatenate([x, x]) if x.ndim else x, state)
 
 
 def of_each(scene, moments, options):
