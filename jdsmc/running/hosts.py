@@ -11,6 +11,8 @@ import jax
 import numpy as np
 from jax.experimental import multihost_utils
 
+from .devices import check_devices
+
 BY_HAND = ("JAX_COORDINATOR_ADDRESS", "JAX_NUM_PROCESSES", "JAX_PROCESS_ID")
 """Environment of processes that were started by hand: host:port of the first, how many, which."""
 
@@ -22,7 +24,8 @@ def join_hosts() -> bool:
     """Join the other processes of this run, if the environment tells of any; True if there are.
 
     To be called before anything is computed: `jdsmc` on the command line does. Raises ValueError
-    if the environment tells only a part, RuntimeError if JAX was used before.
+    if the environment tells only a part, or of devices that are not here; RuntimeError if JAX was
+    used before.
     """
     told = [name for name in BY_HAND if os.environ.get(name)]
     if told and len(told) < len(BY_HAND):
@@ -35,6 +38,7 @@ def join_hosts() -> bool:
         jax.distributed.initialize(address, int(count), int(rank))
     elif all(name in os.environ for name in STEP) and int(os.environ[STEP[1]]) > 1:
         jax.distributed.initialize()
+    check_devices()
     return jax.process_count() > 1
 
 

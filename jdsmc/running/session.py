@@ -11,6 +11,7 @@ from ..scenarios.options import Options
 from ..stats import BLOCKS
 from . import faults
 from .compiled import keep_programs
+from .devices import check_devices
 from .engine import Engine
 from .estimates import printed_estimates, realization_estimates, steady_changes
 from .history import History
@@ -43,6 +44,7 @@ class Session:
         self.options, self.limits, self.request = options, limits, request
         sampler = None if request is None else request.sampler
         self.samples = None if sampler is None else Samples(sampler)
+        check_devices()
         keep_programs()
         self.gases = len(scenes) * n_realizations
         with room_for(self.gases, options):

@@ -41,6 +41,20 @@ def test_numbers_of_polynomials():
     assert counts == [[13, 29], [8, 15], [2, 3]]
 
 
+@pytest.mark.parametrize("symmetry", [SHEARED, AXIAL, ISOTROPIC])
+def test_images_have_the_same_trial_functions(symmetry):
+    """A mirrored velocity is as likely: only products of signs, exact in floating point."""
+    velocity, basis = sheared(), symmetry.basis(6)
+    assert symmetry.images[0] == (1, 1, 1)
+    assert len(set(symmetry.images)) == len(symmetry.images) > 1
+    for signs in symmetry.images:
+        image = tuple(sign * v for sign, v in zip(signs, velocity, strict=True))
+        for one, other in zip(
+            symmetry.values(velocity, basis), symmetry.values(image, basis), strict=True
+        ):
+            np.testing.assert_array_equal(one, other)
+
+
 def test_trial_functions_come_first():
     assert SHEARED.basis(6)[:13] == SHEARED.basis(4)
 
