@@ -118,7 +118,7 @@ def _speed(pair: Pair):
     return jnp.sqrt(sum((a - b) ** 2 for a, b in zip(*pair, strict=True)))
 
 
-def _mean(values: list):
+def _mean(values: list) -> Any:
     return sum(values) / len(values)
 
 

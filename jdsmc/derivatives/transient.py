@@ -7,7 +7,7 @@ every record. No exact fact is used: they belong to steady states.
 from collections.abc import Callable
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 
 from ..scenarios.base import AbstractScene
 from ..scenarios.homogeneous import AbstractHomogeneous
@@ -116,7 +116,7 @@ def _smooth(times, values: np.ndarray) -> Callable:
     """Values (..., blocks) at any time, by a cubic spline if there are two blocks or more."""
     if len(times) == 1:
         return lambda time: values[..., 0]
-    return CubicSpline(times, np.moveaxis(values, -1, 0))
+    return scipy.interpolate.CubicSpline(times, np.moveaxis(values, -1, 0))
 
 
 def _crank_nicolson(change, before, after, step: float, scale: np.ndarray) -> np.ndarray:

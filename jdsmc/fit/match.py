@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.optimize import brentq, least_squares
+import scipy
 
 from ..estimate import Estimate, combine
 from .elastic_curve import Curve
@@ -122,7 +122,9 @@ def _root(elastic: Elastic, grid: np.ndarray, off: np.ndarray, goal) -> np.ndarr
     if not len(places):
         return None
     ends = grid[places[0]], grid[places[0] + 1]
-    return np.array([brentq(lambda b: float(elastic.values([b])[0] - goal[0]), *ends)])
+    return np.array(
+        [scipy.optimize.brentq(lambda b: float(elastic.values([b])[0] - goal[0]), *ends)]
+    )
 
 
 def _least(elastic: Elastic, target: Target, grid, goal) -> np.ndarray | None:
@@ -136,7 +138,7 @@ def _least(elastic: Elastic, target: Target, grid, goal) -> np.ndarray | None:
     start = np.array([values[np.argmin(score)] for values in grid])
     if np.argmin(score) in (0, len(score) - 1):
         return None
-    return least_squares(misses, start, xtol=1e-12, ftol=1e-12, x_scale=start).x
+    return scipy.optimize.least_squares(misses, start, xtol=1e-12, ftol=1e-12, x_scale=start).x
 
 
 def _why(elastic: Elastic, target: Target, grid, off, goal) -> str:

@@ -9,8 +9,7 @@ import itertools
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline
-from scipy.optimize import least_squares
+import scipy
 
 from ..estimate import Estimate, combine
 from ..results.result import Result
@@ -86,7 +85,7 @@ class _Swept:
         last = min(float(times[-1]) for times, _ in found)
         self.within = time <= last
         self.nodes = [
-            combine(lambda *v, t=times: CubicSpline(t, np.stack(v, -1))(time[self.within]), *series)
+            combine(lambda *v, t=times: _between(t, v)(time[self.within]), *series)
             for times, series in found
         ]
         columns = np.stack([self._row(offset) for offset in offsets])
@@ -116,7 +115,7 @@ class _Swept:
     def best(self, fit: Target, wanted: list[Estimate]) -> np.ndarray:
         """Logarithms of the free numbers at the least sum of squares, within twice the range."""
         start, bound = np.zeros(len(self.free)), 2.0 * WIDTH
-        found = least_squares(
+        found = scipy.optimize.least_squares(
             lambda offset: self.misses(fit, wanted, offset), start, bounds=(-bound, bound)
         )
         return self.middle + found.x
@@ -147,3 +146,8 @@ class _Swept:
         found = combine(parts, *wanted, *self.nodes)
         numbers = {name: found[k].map(np.exp) for k, name in enumerate(self.free)}
         return Match(numbers, found[len(self.free)])
+
+
+def _between(times: np.ndarray, values: tuple) -> Any:
+    """A cubic spline through values (..., times)."""
+    return scipy.interpolate.CubicSpline(times, np.stack(values, -1))

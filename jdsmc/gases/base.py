@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Array
 
 from .. import sweep
-from ..fields import as_html, check_fields, text
+from ..fields import as_html, check_fields, plain_methods, text
 from ..units import INITIAL_TEMPERATURE
 from . import local
 from .rules import check_rules
@@ -42,6 +42,8 @@ class AbstractGas(eqx.Module):
     """
 
     dimension: ClassVar[int] = 3
+
+    __getattribute__ = plain_methods
 
     def __check_init__(self):
         check_fields(self)

@@ -8,7 +8,7 @@ import equinox as eqx
 import numpy as np
 
 from ..collisions.meet import Collisions
-from ..fields import as_html, check_fields, text
+from ..fields import as_html, check_fields, plain_methods, text
 from ..gases import AbstractGas, ElasticHardSpheres
 from ..gases.base import check_gas
 from ..measure.observable import Observable
@@ -83,6 +83,8 @@ class AbstractScene(eqx.Module):
     correlated: ClassVar[bool] = False
     """True if observables come from correlations in time: `window` then cuts blocks that are long
     against them, and shorter windows are not compared."""
+
+    __getattribute__ = plain_methods
 
     def __check_init__(self):
         check_gas(self.gas)

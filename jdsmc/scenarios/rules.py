@@ -47,7 +47,8 @@ class _Asked:
         self.scene = eqx.combine(jax.tree.map(shape, numbers), rest)
         self.options = options
         self.name = type(scene).__name__
-        self.key = Key(*(jax.ShapeDtypeStruct((), np.dtype("uint32")),) * 2)
+        word: Any = jax.ShapeDtypeStruct((), np.dtype("uint32"))
+        self.key = Key(word, word)
         self.number = shape(0.0)
 
     def shapes(self, method, *arguments) -> Any:

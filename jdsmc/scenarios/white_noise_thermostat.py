@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 
 import jax.numpy as jnp
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from .. import random
 from ..collisions.meet import Collisions
@@ -91,7 +91,7 @@ class WhiteNoiseThermostat(AbstractHomogeneous):
         low, high = -60.0, 60.0
         if excess(low) > 0.0 or excess(high) < 0.0:
             return VELOCITIES._replace(certain=False)
-        steady = float(brentq(excess, low, high, xtol=1e-6))  # pyright: ignore[reportArgumentType]
+        steady = float(scipy.optimize.brentq(excess, low, high, xtol=1e-6))
         power = (excess(steady + 0.01) - excess(steady - 0.01)) / 0.02
         temperature = np.exp(steady)
         slow = float(self.gas.collision_rate(temperature)) * temperature / (power * heating)

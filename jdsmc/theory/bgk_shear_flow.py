@@ -30,8 +30,8 @@ from dataclasses import dataclass
 from math import inf, pi, sqrt
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.integrate import solve_ivp
 from scipy.special import erf, erfc, i0e
 
 from ..units import VISCOSITY_TIME
@@ -116,7 +116,9 @@ def transient(
         ]
 
     start = [np.log(initial_temperature), 0.0, 1.0, 0.0]
-    solution = solve_ivp(rates, (0.0, time[-1]), start, "LSODA", time, rtol=1e-10, atol=1e-12)
+    solution = scipy.integrate.solve_ivp(
+        rates, (0.0, time[-1]), start, "LSODA", time, rtol=1e-10, atol=1e-12
+    )
     if not solution.success:
         raise RuntimeError(f"The moment equations could not be integrated: {solution.message}")
 

@@ -20,7 +20,7 @@ alpha^2)/beta alone, and beta kappa' is that of elastic spheres. First Sonine ap
 from functools import lru_cache
 from typing import Any
 
-from scipy.optimize import brentq
+import scipy
 
 from ..units import COOLING
 from .boltzmann import navier_stokes
@@ -73,5 +73,5 @@ def rate_factor(restitution: float, name: str) -> float:
         x = loss / beta
         return (_viscosity(x) if name == "viscosity" else _heat(x)[name]) / beta - wanted
 
-    found: Any = brentq(miss, 0.35, 1.5, xtol=1e-8)
+    found: Any = scipy.optimize.brentq(miss, 0.35, 1.5, xtol=1e-8)
     return float(found)

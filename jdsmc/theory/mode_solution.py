@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 from scipy.linalg import solve_continuous_lyapunov
-from scipy.optimize import brentq
 
 from jdsmc.theory.disk_moments import moments
 
@@ -105,7 +105,9 @@ def marginal_wave_number(restitution: float, degree: int, order: int, guess: flo
         matrix = equations.local + wave_number * equations.streaming
         return float(1 / np.linalg.solve(matrix, first)[0])
 
-    return float(brentq(complement, guess / 2.5, guess * 2.5, xtol=1e-13, rtol=1e-12))  # type: ignore[arg-type]
+    return float(
+        scipy.optimize.brentq(complement, guess / 2.5, guess * 2.5, xtol=1e-13, rtol=1e-12)
+    )
 
 
 def extrapolate(values: Floats) -> tuple[Floats, Floats]:
