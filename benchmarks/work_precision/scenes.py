@@ -11,10 +11,13 @@ from jdsmc.scenarios import (
     FourierFlow,
     HeatFluxForce,
     HomogeneousCooling,
+    MolecularDynamics,
+    NavierStokes,
     ShearedSlab,
     UniformShear,
     WhiteNoiseThermostat,
 )
+from jdsmc.scenarios.cooling_response import CoolingResponse
 from jdsmc.theory import boltzmann, langevin
 
 GAS = InelasticHardSpheres(0.7)
@@ -72,6 +75,21 @@ def _couette(**given):
     return CouetteFlow(InelasticHardSpheres(1.0), wall_velocity=0.8, length=4.0, **own)
 
 
+def _kicks(**given):
+    return NavierStokes(GAS, given.get("kick", 0.2), given.get("followed", 15.0))
+
+
+def _molecules(**given):
+    """Denser with fewer disks: N n σ², which fixes the mode, stays at 10."""
+    return MolecularDynamics(InelasticHardDisks(0.8), 10.0 / given.get("n_particles", 1000))
+
+
+def _coefficients(*names: str) -> dict[str, float]:
+    found = boltzmann.navier_stokes(0.7)
+    return {name: getattr(found, name) for name in names}
+
+
+COEFFICIENTS = ("modified_conductivity", "conductivity", "viscosity")
 STEPS = (0.0125, 0.025, 0.05, 0.1, 0.2)
 SPLITTING = ("strang", "lie")
 HOMOGENEOUS = {
@@ -173,5 +191,39 @@ SCENES = (
             "real_per_cell": (0.5, 1.0, 2.0, 4.0),
         },
         truth=_mode(),
+    ),
+    Studied(
+        "molecular-dynamics",
+        _molecules,
+        ("viscosity_ratio", "noise_viscosity_ratio"),
+        {"duration": 1000.0, "n_particles": 1000},
+        {"n_particles": (500, 2000)},
+        truth=_mode(),
+        truth_by="theory of the dilute gas",
+    ),
+    Studied(
+        "navier-stokes",
+        _kicks,
+        COEFFICIENTS,
+        {"collisions": 400.0, "n_particles": 5120},
+        {
+            "time_step": (0.02, 0.04),
+            "n_particles": (1280, 2560, 20480),
+            "kick": (0.05, 0.1, 0.4),
+            "followed": (5.0, 10.0, 20.0),
+        },
+        truth=_coefficients(*COEFFICIENTS),
+    ),
+    Studied(
+        "linear-response",
+        lambda **_: CoolingResponse(GAS),
+        COEFFICIENTS,
+        {"collisions": 200.0},
+        {
+            "time_step": STEPS[1:],
+            "n_particles": (640, 1280, 2560, 10240),
+            "steps_per_record": (4, 8, 32),
+        },
+        truth=_coefficients(*COEFFICIENTS),
     ),
 )
