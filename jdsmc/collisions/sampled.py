@@ -32,6 +32,17 @@ def random_pairs(key: Key, velocity: Velocity) -> tuple[Particles, Particles]:
     return left, right
 
 
+def with_images(
+    pair: tuple[Particles, Particles], images: tuple[tuple[int, ...], ...]
+) -> list[tuple[Particles, Particles]]:
+    """The same pair with each image of the second velocity: signs of the components (of disks, the
+    first two), under which the distribution is the same."""
+    left, right = pair
+    return [
+        (left, tuple(sign * v for sign, v in zip(signs, right, strict=False))) for signs in images
+    ]
+
+
 def both_ways(relative: Particles, speed, first, second) -> tuple[Particles, Particles]:
     """Two outgoing relative velocities of the right distribution: opposite ones for spheres.
 

@@ -14,7 +14,7 @@ import jax
 import jax.numpy as jnp
 
 from .. import random
-from ..collisions.sampled import pairs_per_particle, random_pairs, sampling_key
+from ..collisions.sampled import pairs_per_particle, random_pairs, sampling_key, with_images
 from ..gases.base import AbstractGas, pair_rate
 from ..measure.polynomials import Powers, Symmetry
 from ..motion.drive import centred, temperature_of
@@ -75,12 +75,8 @@ class Sampler(NamedTuple):
         return sums | self._of_pairs(sampling_key(key), gas, velocity, reference)
 
     def _of_pairs(self, key: Key, gas, velocity: Velocity, reference) -> dict:
-        left, right = random_pairs(key, velocity)
-        images = [
-            (left, tuple(sign * v for sign, v in zip(signs, right, strict=False)))  # disks: two
-            for signs in self.symmetry.images
-        ]
-        before = both(self.symmetry, self.basis, left, right)  # the same for all images
+        images = with_images(random_pairs(key, velocity), self.symmetry.images)
+        before = both(self.symmetry, self.basis, *images[0])  # the same for all images
         arrays, rest = eqx.partition(gas, eqx.is_array)
 
         def changes(arrays):

@@ -6,15 +6,18 @@ its linearised generator, `jdsmc.measure.linear_response`.
 
 from typing import ClassVar
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 
+from .. import random
 from ..collisions.meet import Collisions
 from ..collisions.sampled import (
     pairs_per_particle,
     random_outgoing,
     random_pairs,
     sampling_key,
+    with_images,
 )
 from ..fields import derived
 from ..gases import AbstractGas
@@ -22,9 +25,10 @@ from ..gases.base import pair_rate
 from ..measure.linear_response import ORDER, Generator, coefficients, generator
 from ..measure.moments import moments
 from ..measure.observable import Observable
+from ..measure.polynomials import ISOTROPIC
 from ..measure.responses import OBSERVABLES
 from ..motion.drive import held_at
-from ..types import Key, Scalar, Velocity
+from ..types import Key, Particles, Scalar, Velocity
 from ..units import INITIAL_TEMPERATURE
 from .approach import VELOCITIES, Approach
 from .homogeneous import AbstractHomogeneous, HomogeneousRecord, HomogeneousState
@@ -109,8 +113,18 @@ class CoolingResponse(AbstractHomogeneous):
         return mixed, None
 
     def pairs(self, key: Key, velocity: Velocity) -> Generator:
+        """Sums over pairs, with either sign of the second velocity: both are as likely."""
+        images = with_images(random_pairs(key, velocity), ISOTROPIC.images)
+        found = [
+            self.of_pairs(random.fold_in(key, number), velocity, *pair)
+            for number, pair in enumerate(images)
+        ]
+        return jax.tree.map(lambda *sums: sum(sums) / len(sums), *found)
+
+    def of_pairs(
+        self, key: Key, velocity: Velocity, left: Particles, right: Particles
+    ) -> Generator:
         """Sums over pairs, each in a random direction and its opposite."""
-        left, right = random_pairs(key, velocity)
         relative = tuple(a - b for a, b in zip(left, right, strict=True))
         speed = jnp.sqrt(sum(g * g for g in relative))
         transfers = tuple(

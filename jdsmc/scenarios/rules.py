@@ -87,7 +87,7 @@ class _Asked:
         if not same(moved, state):
             self.refuse("move", f"the state with arrays as they came in, {described(state)}", moved)
         wanted = self.shapes(lambda s, k, x: s.wanted_step(s.measure(x), self.options), state)
-        if getattr(wanted, "shape", None) != ():
+        if not is_number(wanted):
             self.refuse("wanted_step", "one number", wanted)
 
     def advance(self, state: Any) -> None:
@@ -97,7 +97,7 @@ class _Asked:
         after, record = self.two("advance", must, found)
         if not isinstance(record, Record) or not isinstance(record.tally, Collisions):
             self.refuse("advance", f"{must} whose tally is a Collisions", found)
-        if getattr(record.elapsed, "shape", None) != ():
+        if not is_number(record.elapsed):
             self.refuse("advance", f"{must} whose `elapsed` is one number", record.elapsed)
         if not same(after, state):
             self.refuse("advance", f"{must}; the state came in as {described(state)}", after)
@@ -121,24 +121,26 @@ class _Asked:
         raise TypeError(f"{self.name}.{method} must return {must}; got {described(found)}.")
 
 
+def is_number(found: Any) -> bool:
+    """True of one traced number."""
+    return isinstance(found, jax.ShapeDtypeStruct) and found.shape == ()
+
+
 def same(one: Any, other: Any) -> bool:
     """True if two pytrees have arrays of the same shapes and types in the same places."""
 
-    def told(tree):
-        return [(getattr(x, "shape", None), getattr(x, "dtype", None)) for x in tree]
-
     leaves, kind = jax.tree.flatten(one)
     wanted, known = jax.tree.flatten(other)
-    return kind == known and told(leaves) == told(wanted)
+    return kind == known and list(map(described, leaves)) == list(map(described, wanted))
 
 
 def described(found: Any) -> str:
     """Arrays by type and shape, the rest by the names of their types."""
-    if hasattr(found, "shape") and hasattr(found, "dtype"):
+    if isinstance(found, jax.ShapeDtypeStruct):
         return f"{found.dtype}{list(found.shape)}"
     if found is None:
         return "None"
-    if isinstance(found, tuple | list) and not hasattr(found, "_fields"):
+    if type(found) in (tuple, list):
         return f"({', '.join(map(described, found))})"
     if isinstance(found, eqx.Module):
         fields = ", ".join(f"{n}: {described(v)}" for n, v in vars(found).items())
