@@ -33,9 +33,9 @@ def check_methods(scene: AbstractScene, options: Options) -> None:
     if kind in _GOOD:
         return
     state = asked.initial()
-    if isinstance(scene, AbstractHomogeneous):
+    if type(scene).advance is AbstractHomogeneous.advance:
         asked.step_of_velocities(state)
-    if isinstance(scene, AbstractSlab):
+    if type(scene).advance is AbstractSlab.advance:
         asked.flight(state)
     asked.advance(state)
     asked.finish_chunk(state)
@@ -67,10 +67,10 @@ class _Asked:
         return eqx.filter_eval_shape(traced, self.scene, self.key, *arguments)
 
     def initial(self) -> Any:
-        """The state, of the kind that the methods of the class above go by."""
+        """The state, of the kind that the class above goes by, if `advance` is from there."""
         state = self.shapes(lambda s, k: s.initial(k, self.options))
-        for kind, its in ((AbstractHomogeneous, HomogeneousState), (AbstractSlab, SlabState)):
-            if isinstance(self.scene, kind) and not isinstance(state, its):
+        for above, its in ((AbstractHomogeneous, HomogeneousState), (AbstractSlab, SlabState)):
+            if type(self.scene).advance is above.advance and not isinstance(state, its):
                 self.refuse("initial", f"a {its.__name__} or what derives from it", state)
         return state
 
