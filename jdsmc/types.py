@@ -29,6 +29,9 @@ TakenRows = tuple[Float[Array, "_ lanes"], ...]
 Particles = tuple[Float[Array, "*shape"], ...]
 """Velocity components of any particles, in arrays of any shape."""
 
+Pairs = tuple[Particles, Particles]
+"""Velocities of the first and of the second particle of pairs."""
+
 Positions = Float[Array, " particles"]
 """Positions in units of λ0, of a gas in space."""
 

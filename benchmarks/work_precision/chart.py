@@ -5,7 +5,7 @@ from pathlib import Path
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from ..timing import machine
 from .measure import DEFAULT, QUICK, REFERENCE
@@ -43,6 +43,8 @@ def draw(scene: Studied, rows: list[dict], folder: Path) -> Path:
                           label="default", zorder=5)  # fmt: skip
         axes.set(xscale="log", yscale="log", xlabel="CPU time (s)",
                  ylabel=f"relative error of {name.replace('_', ' ')}")  # fmt: skip
+        axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axes.xaxis.set_major_formatter("{x:g}")
         axes.xaxis.set_minor_formatter(NullFormatter())
         axes.margins(0.15)
     handles, labels = figure.axes[0].get_legend_handles_labels()

@@ -5,7 +5,7 @@ from jax import lax
 
 from .. import random
 from ..gases.scatter import elastic_outgoing
-from ..types import Key, Particles, Velocity
+from ..types import Key, Pairs, Particles, Velocity
 
 AFTER_STEPS = 0xFFFF_FFFF
 """Folded into the key of a record: no step of it has this number."""
@@ -21,7 +21,7 @@ def pairs_per_particle(count: int) -> float:
     return (count - 1) / count / (2.0 * 2.0**0.5)
 
 
-def random_pairs(key: Key, velocity: Velocity) -> tuple[Particles, Particles]:
+def random_pairs(key: Key, velocity: Velocity) -> Pairs:
     """Half of the rows, and as many others shifted by a random number of lanes."""
     rows, lanes = velocity[0].shape
     order = random.permutation(key, rows, stream=random.Stream.ROWS)
@@ -32,9 +32,7 @@ def random_pairs(key: Key, velocity: Velocity) -> tuple[Particles, Particles]:
     return left, right
 
 
-def with_images(
-    pair: tuple[Particles, Particles], images: tuple[tuple[int, ...], ...]
-) -> list[tuple[Particles, Particles]]:
+def with_images(pair: Pairs, images: tuple[tuple[int, ...], ...]) -> list[Pairs]:
     """The same pair with each image of the second velocity: signs of the components (of disks, the
     first two), under which the distribution is the same."""
     left, right = pair

@@ -17,7 +17,7 @@ from jax import lax
 from ..collisions.sampled import random_outgoing
 from ..gases import AbstractGas
 from ..measure.polynomials import Powers, Symmetry
-from ..types import Key, Particles, Scalar
+from ..types import Key, Pairs, Particles, Scalar
 
 
 def both(symmetry: Symmetry, basis: list[Powers], left: Particles, right: Particles) -> list:
@@ -31,7 +31,7 @@ def after(
     basis: list[Powers],
     key: Key,
     gas: AbstractGas,
-    pair: tuple[Particles, Particles],
+    pair: Pairs,
     reference: Scalar,
 ) -> list:
     """The same after a collision, averaged over its direction or over two opposite ones.

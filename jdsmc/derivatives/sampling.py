@@ -18,11 +18,9 @@ from ..collisions.sampled import pairs_per_particle, random_pairs, sampling_key,
 from ..gases.base import AbstractGas, pair_rate
 from ..measure.polynomials import Powers, Symmetry
 from ..motion.drive import centred, temperature_of
-from ..types import Key, Particles, Scalar, Velocity
+from ..types import Key, Pairs, Scalar, Velocity
 from .after import after, both
 from .numbers import tangent
-
-Pair = tuple[Particles, Particles]
 
 
 class Sampler(NamedTuple):
@@ -102,14 +100,14 @@ class Sampler(NamedTuple):
             "tangents": jnp.stack(found) if found else jnp.zeros((0, len(self.basis) + 1)),
         }
 
-    def _changes(self, key: Key, gas, pair: Pair, before: list, reference):
+    def _changes(self, key: Key, gas, pair: Pairs, before: list, reference):
         speed = _speed(pair)
         rate = pair_rate(gas, speed * reference)
         then = after(self.symmetry, self.basis, key, gas, pair, reference)
         return _matrix([*(rate * (a - b) for a, b in zip(then, before, strict=True)), rate])
 
 
-def _speed(pair: Pair):
+def _speed(pair: Pairs):
     """The relative speed."""
     return jnp.sqrt(sum((a - b) ** 2 for a, b in zip(*pair, strict=True)))
 

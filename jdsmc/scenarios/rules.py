@@ -94,7 +94,7 @@ class _Asked:
         if not same(moved, state):
             self.refuse("move", f"the state with arrays as they came in, {described(state)}", moved)
         wanted = self.shapes(lambda s, k, x: s.wanted_step(s.measure(x), self.options), state)
-        if not is_number(wanted):
+        if not is_one_number(wanted):
             self.refuse("wanted_step", "one number", wanted)
 
     def advance(self, state: Any) -> None:
@@ -104,7 +104,7 @@ class _Asked:
         after, record = self.two("advance", must, found)
         if not isinstance(record, Record) or not isinstance(record.tally, Collisions):
             self.refuse("advance", f"{must} whose tally is a Collisions", found)
-        if not is_number(record.elapsed):
+        if not is_one_number(record.elapsed):
             self.refuse("advance", f"{must} whose `elapsed` is one number", record.elapsed)
         if not same(after, state):
             self.refuse("advance", f"{must}; the state came in as {described(state)}", after)
@@ -128,14 +128,13 @@ class _Asked:
         raise TypeError(f"{self.name}.{method} must return {must}; got {described(found)}.")
 
 
-def is_number(found: Any) -> bool:
+def is_one_number(found: Any) -> bool:
     """True of one traced number."""
     return isinstance(found, jax.ShapeDtypeStruct) and found.shape == ()
 
 
 def same(one: Any, other: Any) -> bool:
     """True if two pytrees have arrays of the same shapes and types in the same places."""
-
     leaves, kind = jax.tree.flatten(one)
     wanted, known = jax.tree.flatten(other)
     return kind == known and list(map(described, leaves)) == list(map(described, wanted))
