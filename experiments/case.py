@@ -12,15 +12,15 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from jdsmc import Estimate, Result, run, transport
+from jdsmc import Estimate, Result, resume, run, transport
 from jdsmc.running.provenance import specification
 from jdsmc.scenarios.navier_stokes import NavierStokes
 
 from . import store
 from .claims import Claim, Verdict
 
-LONGER = 1.5
-"""Factor by which a run is made longer until it has steady values."""
+LONGER = 1.25
+"""Factor by which a run is made longer, again and again, until it has steady values."""
 
 
 @dataclass(frozen=True)
@@ -31,8 +31,7 @@ class Case:
         name: of its file, without suffix; the seed is made from it.
         scene: of `jdsmc.scenarios`, swept or not.
         options: of `jdsmc.run`, or of `navier_stokes` for its scene.
-        steady: if steady values are needed; a run of given length is then repeated, longer each
-            time, until there are some.
+        steady: if steady values are needed: a run of given length then goes on until it has some.
     """
 
     name: str
@@ -52,19 +51,18 @@ class Case:
     def sources(self) -> list[Path]:
         """Modules that the simulation starts from."""
         start = transport.navier_stokes if isinstance(self.scene, NavierStokes) else run
-        modules = [one.__module__ for one in (type(self.scene), type(self.scene.gas), start)]
-        return [Path(str(sys.modules[name].__file__)) for name in modules]
+        first = (type(self.scene), type(self.scene.gas), start, resume)
+        return [Path(str(sys.modules[one.__module__].__file__)) for one in first]
 
     def simulate(self) -> Result:
         """Run it."""
         options = {"seed": zlib.crc32(self.name.encode()), "progress": False, **self.options}
-        while True:
-            result = self._once(options)
-            interrupted = result.interrupted
-            if result.is_steady or interrupted or not self.steady:
-                return result
+        result = self._once(options)
+        while self.steady and not (result.is_steady or result.interrupted):
             clock = next(name for name in ("duration", "collisions") if name in options)
             options[clock] *= LONGER
+            result = resume(result, progress=False, **{clock: options[clock]})
+        return result
 
     def _once(self, options: dict) -> Result:
         if isinstance(self.scene, NavierStokes):

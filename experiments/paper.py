@@ -116,10 +116,10 @@ class Paper:
             f"{platform.python_version()}. The simulations took {minutes:.0f} minutes."
         )
 
-    def main(self, size: str, out: Path | None, fresh: bool) -> None:
+    def main(self, size: str, out: Path, fresh: bool) -> None:
         """Reproduce, and keep tables and figures beside the code that made them."""
         start = time.perf_counter()
-        folder = out or Path("output") / self.folder.name / size
+        folder = out / self.folder.name / size
         folder.mkdir(parents=True, exist_ok=True)
         files = self.reproduce(size, folder, fresh)
         results = self.folder / "results" / ("" if size == "small" else size)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from experiments import claims
+from experiments import claims, paper
 from experiments.__main__ import PAPERS, cli, load
 from experiments.fourier_flow_gravity import cases as fourier
 from experiments.fourier_flow_gravity import effect
@@ -94,6 +94,23 @@ def test_commands(capsys):
         assert stopped.value.code == code
     out, err = capsys.readouterr()
     assert all(name in out for name in PAPERS) and "no_such_paper" in err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "size", "made"),
+    [
+        (["--full"], "full", PAPERS),
+        (["all"], "small", PAPERS),
+        (["calibration", "--full"], "full", ("calibration",)),
+    ],
+)
+def test_one_command_makes_everything(arguments, size, made, monkeypatch):
+    asked = []
+    monkeypatch.setattr(
+        paper.Paper, "main", lambda own, size, out, fresh: asked.append((own.name, size, fresh))
+    )
+    cli(arguments=arguments)
+    assert asked == [(name, size, False) for name in made]
 
 
 PROGRAM = """
