@@ -1,6 +1,7 @@
 """A picture a scene, error against cost with the default marked, and the table of the defaults."""
 
 from pathlib import Path
+from textwrap import wrap
 
 import matplotlib as mpl
 import numpy as np
@@ -11,7 +12,9 @@ from ..timing import machine
 from .measure import DEFAULT, QUICK, REFERENCE
 from .scenes import SCENES, Studied
 
-WIDTH, HEIGHT = 4.6, 3.8
+WIDTH, HEIGHT, LETTERS = 4.6, 3.8, 56
+"""Of a panel: inches, and letters of the title that fit."""
+
 NEARER = "a longer run nearer to the limit"
 FAR = 3.0
 """A bias is seen if it is so many standard errors."""
@@ -20,21 +23,25 @@ FAR = 3.0
 def draw(scene: Studied, rows: list[dict], folder: Path) -> Path:
     """Error (bias and one standard error, in quadrature) against CPU time, both relative axes."""
     mpl.use("agg")
-    count = len(scene.observables)
+    count, usual = len(scene.observables), {}
     figure = Figure((WIDTH * count, HEIGHT), layout="constrained")
     for axes, name in zip(np.ravel(figure.subplots(1, count)), scene.observables, strict=True):
         own = [r for r in rows if (r["scene"], r["observable"]) == (scene.name, name)]
         for marker, knob in zip("osD^v", scene.knobs, strict=False):
             points = sorted(
-                ((float(r["cost_cpu_seconds"]), relative(r), r["setting"]) for r in own
+                ((float(r["cost_cpu_seconds"]), relative(r), r["setting"], r["value"]) for r in own
                  if r["knob"] == knob), key=lambda point: point[0],
             )  # fmt: skip
             if not points:
                 continue
+            default = {r["value"] for r in own if r["knob"] == DEFAULT}
             label = knob.replace("_", " ")
             (line,) = axes.plot(*zip(*[p[:2] for p in points], strict=True), marker, ms=5,
                                 ls="-", lw=0.6, label=label)  # fmt: skip
-            for cost, error, setting in points:
+            for cost, error, setting, value in points:
+                if value in default:  # the same run again: below the star there is no room
+                    usual[label] = setting
+                    continue
                 axes.annotate(setting, (cost, error), xytext=(3, 3), fontsize=6,
                               textcoords="offset points", color=line.get_color())  # fmt: skip
         for row in own:
@@ -49,7 +56,10 @@ def draw(scene: Studied, rows: list[dict], folder: Path) -> Path:
         axes.margins(0.15)
     handles, labels = figure.axes[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=2 * count, frameon=False)
-    figure.suptitle(f"{scene.name}: error (bias and noise) against cost", fontsize=10)
+    title = f"{scene.name}: error (bias and noise) against cost"
+    told = "star: the default, " + ", ".join(f"{label} {one}" for label, one in usual.items())
+    lines = [title, *(wrap(told, LETTERS * count) if usual else [])]
+    figure.suptitle("\n".join(lines), fontsize=10)
     path = folder / f"work_precision_{scene.name}.png"
     figure.savefig(path, dpi=130)
     return path
