@@ -52,9 +52,9 @@ def navier_stokes(
         kick: ε in (0, 1] (1/v0 and, for the shear, 1), or a 1-D array of them. What is nonlinear
             in it biases by an eighth of ε² (0.5% at 0.2, the default; with `rtol` at most half of
             that is allowed); noise grows as 1/ε.
-        duration: reduced time (τ0) for which a kick is followed, in (0, 100]; 15 by default, or as
-            long as `rtol` needs. What is left is extrapolated (`conductivity_tail`, ...); noise in
-            κ grows like exp(ζs/2) with it.
+        duration: reduced time (τ0) for which a kick is followed, in (0, 100]; by default as long as
+            `rtol` needs, 8.4 without it. What is left is extrapolated (`conductivity_tail`, ...);
+            noise in κ grows like exp(ζs/2) with it.
         seed: of all random numbers; the same seed gives the same result.
         time_step: largest time step as a fraction of τ(T), in (0, 1]; steps are shortened to
             0.079 and recorded each.
@@ -73,7 +73,7 @@ def navier_stokes(
     Ctrl-C ends the run after the present kick and returns what was measured.
     """
     if rtol is None:
-        fitted = (100_000, 4, 0.2, 15.0)
+        fitted = (100_000, 4, 0.2, duration_for(NavierStokes.default_rtol))
     else:
         check.scalar("rtol", rtol, 0.0, 1.0)
         fitted = (20_000, MOST_KICKS, kick_for(rtol), duration_for(rtol))

@@ -18,6 +18,7 @@ from jdsmc.scenarios import (
     WhiteNoiseThermostat,
 )
 from jdsmc.scenarios.cooling_response import CoolingResponse
+from jdsmc.scenarios.navier_stokes import duration_for
 from jdsmc.theory import boltzmann, langevin
 
 GAS = InelasticHardSpheres(0.7)
@@ -76,7 +77,8 @@ def _couette(**given):
 
 
 def _kicks(**given):
-    return NavierStokes(GAS, given.get("kick", 0.2), given.get("followed", 15.0))
+    usual = duration_for(NavierStokes.default_rtol)
+    return NavierStokes(GAS, given.get("kick", 0.2), given.get("followed", usual))
 
 
 def _molecules(**given):
@@ -210,7 +212,7 @@ SCENES = (
             "time_step": (0.02, 0.04),
             "n_particles": (1280, 2560, 20480),
             "kick": (0.05, 0.1, 0.4),
-            "followed": (5.0, 10.0, 20.0),
+            "followed": (5.0, 6.0, 10.0, 15.0),
         },
         truth=_coefficients(*COEFFICIENTS),
     ),
