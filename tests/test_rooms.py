@@ -9,7 +9,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1] / "jdsmc"
 ORDER = (
-    {"units", "types", "check", "errors", "random", "fields", "sweep", "stats", "estimate"},
+    {"units", "types", "check", "errors", "random", "fields", "sweep", "stats", "estimate", "sums"},
     {"files"},
     {"theory"},
     {"gases"},

@@ -11,6 +11,7 @@ from jax import lax
 from .. import random
 from ..gases.base import AbstractGas, pair_rate
 from ..gases.scatter import elastic_outgoing, root
+from ..sums import total
 from ..types import Key, Particles, Scalar
 
 
@@ -98,9 +99,9 @@ def meet(
     met = Candidates(left, right, probability, accepted, outgoing, transfer)
     watched = None if watch is None else watch(met)
     tally = Collisions(
-        _total(accepted.astype(dtype)),
-        _total(lost),
-        _total(jnp.maximum(probability - 1.0, 0.0)),
+        total(accepted.astype(dtype)),
+        total(lost),
+        total(jnp.maximum(probability - 1.0, 0.0)),
         jnp.zeros((), dtype),
         jnp.max(rate),
         watched,
@@ -108,8 +109,3 @@ def meet(
     left = tuple(v - t for v, t in zip(left, transfer, strict=True))
     right = tuple(v + t for v, t in zip(right, transfer, strict=True))
     return left, right, tally, jnp.max(probability)
-
-
-def _total(values) -> Scalar:
-    """Sum by lanes, then rows: in float32 the rounding error grows as √rows + √lanes."""
-    return jnp.sum(jnp.sum(values, axis=-1))

@@ -33,7 +33,8 @@ from jax import lax
 from jaxtyping import Array, Float
 
 from ..collisions.meet import Candidates, Watch
-from ..motion.drive import centred, mean
+from ..motion.drive import centred
+from ..sums import mean, total
 from ..types import Particles, Scalar, Velocity
 
 FOUR = ((0, 0), (1, 1), (2, 2), (0, 1))
@@ -64,10 +65,7 @@ def noise_of(gas) -> Watch:
         changed = changes(met.transfer, relative)
         expected = mean_changes(gas, relative, met.outgoing)
         noise = [x - chance * e for x, e in zip(changed, expected, strict=True)]
-        # a product with ones adds up lanes in half the time of a sum (whole step: 1.10, not 1.20)
-        ones = jnp.ones(chance.shape[-1], chance.dtype)
-        each = (jnp.matmul(x, ones, precision="highest") for x in lax.optimization_barrier(noise))
-        return jnp.stack([jnp.sum(x) for x in each])
+        return jnp.stack([total(x) for x in lax.optimization_barrier(noise)])
 
     return watch
 

@@ -6,8 +6,8 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from ..motion.drive import mean
 from ..motion.friction import LayerFlow, peculiar
+from ..sums import mean
 from ..types import Layer, Positions, Velocities, Velocity
 from .observable import Observable
 

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Array, Float
 from scipy.special import gamma, genlaguerre
 
-from ..motion.drive import mean
+from ..sums import mean
 from ..types import Velocity
 from ..units import CONDUCTIVITY
 from .distributions import histogram

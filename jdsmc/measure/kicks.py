@@ -8,7 +8,8 @@ equation (docs/impulse_response.md; Montanero, Santos and Garzó, Physica A 376,
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ..motion.drive import centred, mean, temperature_of
+from ..motion.drive import centred, temperature_of
+from ..sums import mean
 from ..types import Copies, Scalar, Velocity
 
 FIELDS = ("modified_conductivity", "conductivity", "viscosity")

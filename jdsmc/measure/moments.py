@@ -6,7 +6,7 @@ import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ..motion.drive import mean
+from ..sums import mean
 from ..types import Scalar, Velocity
 
 SPEED_CLASSES = (1.0, 2.0, 3.0)

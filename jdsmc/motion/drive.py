@@ -2,6 +2,7 @@
 
 import jax.numpy as jnp
 
+from ..sums import mean
 from ..types import Particles, Scalar, Velocity
 
 
@@ -35,11 +36,6 @@ def sheared_drag(
     )
     factor = 1.0 / (1.0 + 0.5 * coefficient * integral)
     return tuple(factor * v for v in shear(velocity, shear_rate * duration))
-
-
-def mean(values) -> Scalar:
-    """Mean over particles, lanes first (rounding in float32 stays near 1e-6)."""
-    return jnp.mean(jnp.mean(values, axis=-1))
 
 
 def centred(velocity: Particles) -> Particles:

@@ -8,8 +8,8 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from ..random import sin_cos_turns
+from ..sums import mean
 from ..types import Layer, Positions, Scalar, Velocities
-from .drive import mean
 
 MODES = ((0, 1), (1, 0), (1, 1), (1, -1))
 """Wave vectors in units of 2π/L; the first two are equivalent, and so are the last two."""

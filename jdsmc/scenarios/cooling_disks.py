@@ -18,8 +18,9 @@ from ..collisions.in_cells import collide_in_layers
 from ..collisions.meet import Collisions
 from ..fields import count
 from ..gases import InelasticHardDisks
-from ..motion.drive import held_at, mean
+from ..motion.drive import held_at
 from ..motion.plane import cell_of, fly, still, transverse_modes
+from ..sums import mean
 from ..types import Key, Positions, Velocities
 from ..units import INITIAL_TEMPERATURE
 from .disk_modes import (

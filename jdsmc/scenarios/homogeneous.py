@@ -32,7 +32,8 @@ from ..measure.observables import (
     moment_averages,
 )
 from ..measure.polynomials import Averages, Powers, Symmetry
-from ..motion.drive import centred, mean, temperature_of
+from ..motion.drive import centred, temperature_of
+from ..sums import mean
 from ..types import Key, Scalar, Velocity
 from ..units import INITIAL_TEMPERATURE
 from .base import AbstractScene, Record, weighted_means

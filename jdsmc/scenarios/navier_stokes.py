@@ -27,7 +27,8 @@ from ..gases import AbstractGas
 from ..measure.kicks import COPIES, fluxes, kicked
 from ..measure.observable import Observable
 from ..measure.responses import OBSERVABLES, Responses, coefficients, kick_series
-from ..motion.drive import held_at, mean, temperature_of
+from ..motion.drive import held_at, temperature_of
+from ..sums import mean
 from ..types import Copies, Key, Scalar
 from ..units import INITIAL_TEMPERATURE
 from .approach import Approach

@@ -84,12 +84,16 @@ def test_cores_do_not_matter(scene, monkeypatch):
     assert max(x.size for x in results[0]) > 18  # else blind
 
 
-@pytest.mark.parametrize("scene", [SHEARED, SLAB, DRAWN], ids=["homogeneous", "slab", "host"])
-def test_a_gas_does_not_know_its_neighbours(scene):
+@pytest.mark.parametrize(
+    ("scene", "number"),
+    [(SHEARED, 256), (SHEARED, 1072), (SHEARED, 3550), (SLAB, 256), (DRAWN, 256)],
+    ids=["homogeneous", "67 rows", "71 rows", "slab", "host"],  # odd ones: no tile fits a gas
+)
+def test_a_gas_does_not_know_its_neighbours(scene, number):
     """Each point alone, its nine realizations in other groups than in the sweep: the same bits."""
-    both = chunks(scene)
+    both = chunks(scene, n_particles=number)
     for point, one in enumerate(sweep.points(scene)[0]):
-        assert_equal([x[point : point + 1] for x in both], chunks(one))
+        assert_equal([x[point : point + 1] for x in both], chunks(one, n_particles=number))
     values = np.concatenate([x.reshape(18, -1) for x in both], axis=1)
     assert len(np.unique(values, axis=0)) == 18  # every gas has random numbers of its own
 
