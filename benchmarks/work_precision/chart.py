@@ -27,6 +27,7 @@ def draw(scene: Studied, rows: list[dict], folder: Path) -> Path:
     figure = Figure((WIDTH * count, HEIGHT), layout="constrained")
     for axes, name in zip(np.ravel(figure.subplots(1, count)), scene.observables, strict=True):
         own = [r for r in rows if (r["scene"], r["observable"]) == (scene.name, name)]
+        default = {r["value"] for r in own if r["knob"] == DEFAULT}
         for marker, knob in zip("osD^v", scene.knobs, strict=False):
             points = sorted(
                 ((float(r["cost_cpu_seconds"]), relative(r), r["setting"], r["value"]) for r in own
@@ -34,7 +35,6 @@ def draw(scene: Studied, rows: list[dict], folder: Path) -> Path:
             )  # fmt: skip
             if not points:
                 continue
-            default = {r["value"] for r in own if r["knob"] == DEFAULT}
             label = knob.replace("_", " ")
             (line,) = axes.plot(*zip(*[p[:2] for p in points], strict=True), marker, ms=5,
                                 ls="-", lw=0.6, label=label)  # fmt: skip
