@@ -6,7 +6,8 @@ from typing import NamedTuple
 class Observable(NamedTuple):
     """A reported quantity: name in files, meaning for people, unit, dimensions beyond the sweep.
 
-    `symbol` is short, for axes of pictures; the name serves where it is empty.
+    `symbol` is short, for axes of pictures; the name serves where it is empty. `setting`: chosen by
+    the run, not by the gas, so that no run waits for it to be steady.
     """
 
     name: str
@@ -14,6 +15,7 @@ class Observable(NamedTuple):
     unit: str = "1"
     dims: tuple[str, ...] = ()
     symbol: str = ""
+    setting: bool = False
 
     @property
     def short(self) -> str:

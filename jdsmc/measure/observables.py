@@ -30,7 +30,7 @@ REDUCED = (
         symbol="ζ/ζ0",
     ),
     Observable("collision_rate_ratio", "collision rate over its local-equilibrium value"),
-    Observable("time_step", "mean time step over τ(T)"),
+    Observable("time_step", "mean time step over τ(T)", setting=True),
     Observable(
         "speed_ratio",
         "R_l, share of particles in a speed class over the Maxwellian one",
@@ -120,7 +120,8 @@ def rheology(means: dict, shear_rate, exponent: float | None) -> dict:
     if exponent is None:
         reduced = np.full_like(heat, np.nan)
     else:
-        reduced = shear_rate * VISCOSITY_TIME / np.sqrt(2.0 * heat) ** exponent
+        with np.errstate(invalid="ignore"):  # a fit to few records may have T < 0: unknown
+            reduced = shear_rate * VISCOSITY_TIME / np.sqrt(2.0 * heat) ** exponent
     with np.errstate(divide="ignore", invalid="ignore"):
         sheared = np.where(reduced > 0, reduced, np.nan)
         viscosity, first, second = -xy / sheared, (xx - yy) / sheared**2, (zz - yy) / sheared**2

@@ -12,9 +12,11 @@ from .. import random
 from ..types import Key, Positions, Scalar, Velocities
 from ..units import INITIAL_TEMPERATURE
 
-STATES = ("equilibrium", "nonequilibrium", "local_equilibrium")
+UNIFORM = ("local_equilibrium", "steady")
+STATES = ("equilibrium", "nonequilibrium", *UNIFORM)
 """Eq. (3.5): Maxwellian at rest. Eq. (3.6): all peculiar speeds equal, density a sine, flow an
-arch. Eq. (3.12): Maxwellian about the linear profile."""
+arch. Eq. (3.12): Maxwellian about the linear profile, which stresses and a temperature of the
+kinetic model make "steady"."""
 
 NEWTON = 8
 """Steps of Newton's method from y = u: each squares an error that is at most 1/2π at first."""
@@ -40,7 +42,7 @@ def flow(state: str, place: Positions, difference: Scalar) -> Positions:
     """u_x (v0) at places y/L, eqs. (3.8), (3.12); `difference`: U = aL, between the planes."""
     if state == "nonequilibrium":
         return difference * (jnp.sin(jnp.pi * place) - 2.0 / jnp.pi)
-    if state == "local_equilibrium":
+    if state in UNIFORM:
         return difference * (place - 0.5)
     return jnp.zeros_like(place)
 

@@ -122,13 +122,14 @@ def steady_changes(history: History, point: int, early: int, start: int) -> tupl
     }
     means = {(w, name): array for w, m in windows.items() for name, array in m.items()}
     scene = history.scenes[point]
+    settings = {one.name for one in scene.reports if one.setting}
 
     def both(averages):
         before, after = (
             reported(scene, {n: averages[w, n] for v, n in averages if v == w}) for w in windows
         )
         with np.errstate(invalid="ignore"):
-            change = {("change", n): after[n] - before[n] for n in after}
+            change = {("change", n): after[n] - before[n] for n in after if n not in settings}
         return change | {("later", n): value for n, value in after.items()}
 
     value, error, _ = jackknife(means, both, axis=0, leading=takes_leading_axes(scene))

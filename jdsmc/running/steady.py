@@ -34,6 +34,10 @@ scatter that makes their error bars."""
 TOLERANCE = 0.5
 """Largest bias, as a share of the standard error."""
 
+EARLY = (0.5, 0.25)
+"""Share of the warm-up at which the window ends that a measurement is compared with begins: either
+may tell. The longer one has less noise, and of the slow mode more."""
+
 LATEST, LATER = 0.6, 1.15
 """Share of the run at which a measurement may begin at the latest; factor of the starts tried."""
 
@@ -169,14 +173,20 @@ class SteadyTracker:
         return False
 
     def _resolved(self, history: History, point: int, start: int, began, end) -> bool:
-        early = history.record_at_collisions(point, 0.5 * began)
-        if not early < start:
+        return any(self._resolved_from(history, point, e * began, start, end) for e in EARLY)
+
+    def _resolved_from(self, history: History, point: int, early, start: int, end) -> bool:
+        first = history.record_at_collisions(point, early)
+        if not first < start:
             return False
-        share = left_over(began, end, self.slow_time[point])
         if self._drift is None:
             return True
-        change, uncertainty, error = self._drift(history, point, early, start)
+        began = self._collisions_at(history, point, start)
+        share = left_over(early, began, end, self.slow_time[point])
+        change, uncertainty, error = self._drift(history, point, first, start)
         for name in change:
+            if known(error[name]) and not (known(change[name]) and known(uncertainty[name])):
+                return False  # too short a window for what is fitted to it
             moved, doubt, allowed = (rms(x[name]) for x in (change, uncertainty, error))
             if share * (moved + 2.0 * doubt) > TOLERANCE * allowed + 1e-9 * moved:
                 return False
@@ -215,19 +225,24 @@ def smallest_significance(early: np.ndarray, late: np.ndarray) -> float:
     return float(np.min(each)) * each.size
 
 
+def known(values) -> bool:
+    """True if any of them is a number."""
+    return bool(np.any(np.isfinite(values)))
+
+
 def rms(values) -> float:
     """Root of the mean square of what is finite: a profile is judged as one, 0 if there is none."""
     finite = np.ravel(values)[np.isfinite(np.ravel(values))]
     return float(np.sqrt(np.mean(finite**2))) if finite.size else 0.0
 
 
-def left_over(began, end, slow_time) -> float:
-    """Mean of exp(-s/slow_time) from `began` to `end` over that from `began`/2 to `began`.
+def left_over(early, began, end, slow_time) -> float:
+    """Mean of exp(-s/slow_time) from `began` to `end` over that from `early` to `began`.
 
     With a change d seen between the two windows the late one is still off by this times d, or a
     little more, as long as it is small.
     """
-    before, after = 0.5 * began / slow_time, max(end - began, 1e-9) / slow_time
+    before, after = (began - early) / slow_time, max(end - began, 1e-9) / slow_time
     ratio = (before / after) * np.exp(-before) * np.expm1(-after) / np.expm1(-before)
     return float(ratio / max(1.0 - ratio, 1e-3))
 

@@ -11,9 +11,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..gases import AbstractGas, ElasticHardSpheres, InelasticHardSpheres
+from ..gases import AbstractGas, InelasticHardSpheres
 from ..gases.hard_spheres import loses_energy
 from ..units import COOLING, VISCOSITY_TIME
+from .kinetic_model import HardSpheres, rates_of_model, steady_shear
 
 
 class Approach(NamedTuple):
@@ -37,26 +38,21 @@ VELOCITIES = Approach(2.0)
 decays with ν_κ' - 3ζ/2, 0.59/τ0 (α = 1) to 0.44/τ0 (α = 0.3), and √π τ0 is one collision."""
 
 
-def of_sheared_gas(gas: AbstractGas, shear_rate: float) -> Approach:
-    """Of T, hence of a*, in uniform shear from T0: of the kinetic model, linear about T_s.
+def of_sheared_gas(gas: AbstractGas, shear_rate: float, steady: bool = False) -> Approach:
+    """Of T, hence of a*, in uniform shear: of the kinetic model, linear about T_s.
 
     Near the elastic limit T - T_s decays as exp(-2(1-α²)s/3) from any start; at α = 0.3 the slowest
-    rate of the moment equations is 1.8 times less. Unknown unless the gas is made of hard spheres.
+    rate of the moment equations is 1.8 times less. The start is T0, or `steady`: the state of the
+    model, off by less than its own size. Unknown unless the gas is made of hard spheres.
     """
-    if not isinstance(gas, InelasticHardSpheres | ElasticHardSpheres):
+    if not isinstance(gas, HardSpheres):
         return UNKNOWN
-    _, beta = known = _rates(gas)
-    rate, steady = slowest_rate(*known, shear_rate)
+    cooling, beta = rates_of_model(gas)
+    rate, temperature = slowest_rate(float(cooling), float(beta), shear_rate)
     per_time = (1.0 if isinstance(gas, InelasticHardSpheres) else beta) / sqrt(pi)
-    return Approach(per_time / rate, log(max(1.0, 1.0 / steady - 1.0)))
-
-
-def _rates(gas: InelasticHardSpheres | ElasticHardSpheres) -> tuple[float, float]:
-    """ζτ and β of the kinetic model of one gas."""
-    alpha = float(gas.restitution)
-    if isinstance(gas, InelasticHardSpheres):
-        return COOLING * (1.0 - alpha**2), (1.0 + alpha) / 2.0
-    return float(gas.drag_coefficient()), float(gas.collision_factor())
+    return Approach(
+        float(per_time) / rate, 0.0 if steady else log(max(1.0, 1.0 / temperature - 1.0))
+    )
 
 
 def slowest_rate(cooling: float, beta: float, shear_rate: float) -> tuple[float, float]:
@@ -71,9 +67,7 @@ def slowest_rate(cooling: float, beta: float, shear_rate: float) -> tuple[float,
     and at rest 2qΠ/3 = c; ln q follows -ln T/2.
     """
     c, r = cooling, beta / VISCOSITY_TIME
-    z = c / r
-    e = sqrt(1.5 * z) * (1.0 + z)
-    q, stress, yy = e * r, e / (1.0 + z) ** 2, 1.0 / (1.0 + z)
+    q, stress, yy = steady_shear(cooling, beta)
     jacobian = [
         [-c / 2.0, 2.0 * q / 3.0, 0.0],
         [-0.5 * (q * yy - c * stress), -r - 2.0 * c, q],
@@ -82,23 +76,26 @@ def slowest_rate(cooling: float, beta: float, shear_rate: float) -> tuple[float,
     return float(np.min(-np.linalg.eigvals(jacobian).real)), (shear_rate / q) ** 2
 
 
-def of_sheared_slab(gas: AbstractGas, shear_rate: float, length: float) -> Approach:
+def of_sheared_slab(
+    gas: AbstractGas, shear_rate: float, length: float, steady: bool = False
+) -> Approach:
     """Of a slab: its temperature as in uniform shear, and its flow, which diffuses across it.
 
     The longest wave of momentum decays in L²/(4π² η/nm), 0.05 L² τ(T) or 0.03 L² collisions per
-    particle. Until then friction heats the gas by no more than the flow's energy, (aL)²/18 T0.
+    particle. Until then friction heats the gas by no more than the flow's energy, (aL)²/18 T0;
+    not so from the uniform and `steady` state of the model.
     Long waves decay ever more slowly towards the length from which on uniform shear is unstable,
     about 11/√(1-α²) (25 at α = 0.9): from half of it the run itself must tell.
     """
-    if not isinstance(gas, InelasticHardSpheres | ElasticHardSpheres):
+    if not isinstance(gas, HardSpheres):
         return UNKNOWN
     shear = of_sheared_gas(gas, shear_rate)
-    cooling, beta = _rates(gas)
+    cooling, beta = (float(x) for x in rates_of_model(gas))
     hottest = 1.0 + (shear_rate * length) ** 2 / 18.0
-    _, steady = slowest_rate(cooling, beta, shear_rate)
+    _, temperature = slowest_rate(cooling, beta, shear_rate)
     return Approach(
         shear.collisions + 0.03 * length**2,
-        log(max(1.0, hottest / steady)),
+        0.0 if steady else log(max(1.0, hottest / temperature)),
         certain=length**2 * cooling / COOLING < 30.0,
     )
 

@@ -26,12 +26,14 @@ from ..measure.observable import Observable
 from ..measure.observables import RHEOLOGY, rheology
 from ..motion import initial_flow
 from ..motion.cells import totals
+from ..motion.drive import temperature_of
 from ..motion.flight import cross_planes
 from ..motion.friction import LayerFlow, friction, peculiar, slowed, slowing
 from ..types import Key, Layer, Profile, Scalar, Velocities
 from ..units import INITIAL_TEMPERATURE
 from .approach import Approach, of_sheared_slab
 from .base import Record
+from .kinetic_model import check_start, sheared
 from .layers import common_layers
 from .options import Options
 from .slab import AbstractSlab, SlabState, uniform
@@ -96,8 +98,10 @@ class ShearedSlab(AbstractSlab):
         shear_rate: a in units of 1/τ0, at least 0.
         length: L in λ0, in (0, 1000]. Uniform shear is unstable in slabs that are long enough
             (L > 25 at α = 0.9, according to the paper).
-        initial_state: "equilibrium" (at rest, eq. 3.5), "nonequilibrium" (eq. 3.6), or
-            "local_equilibrium" (uniform shear from the start, eq. 3.12).
+        initial_state: "equilibrium" (at rest, eq. 3.5), "nonequilibrium" (eq. 3.6),
+            "local_equilibrium" (uniform shear from the start, eq. 3.12), or "steady", for steady
+            values sooner: uniform shear, temperature and stresses of the kinetic model's steady
+            state.
         layers: number of layers; by default 50, 100, 200, ...: 10 a mean free path at the mean
             density or more. All points of a sweep must need the same, else give them.
     The numbers may be 1-D arrays, for a sweep. Raises ValueError for values outside these.
@@ -116,8 +120,9 @@ class ShearedSlab(AbstractSlab):
     length: Any = number(
         "distance L of the planes", "λ0", low=0.0, high=1000.0, low_included=False, default=2.5
     )
-    initial_state: Literal["equilibrium", "nonequilibrium", "local_equilibrium"] = choice(
-        "a gas at rest (eq. 3.5), the paper's state far from equilibrium (3.6), or uniform shear",
+    initial_state: Literal["equilibrium", "nonequilibrium", "local_equilibrium", "steady"] = choice(
+        "a gas at rest (eq. 3.5), the paper's state far from equilibrium (3.6), uniform shear at "
+        "T0, or in the steady state of the kinetic model",
         initial_flow.STATES,
         default="equilibrium",
     )
@@ -151,19 +156,29 @@ class ShearedSlab(AbstractSlab):
 
     def approach(self, options: Options) -> Approach:
         """That of the kinetic model, and diffusion across the slab."""
-        return of_sheared_slab(self.gas, self.shear_rate, self.length)
+        steady = self.initial_state == "steady"
+        return of_sheared_slab(self.gas, self.shear_rate, self.length, steady)
+
+    def fit_options(self, options: Options) -> Options:
+        """As they are; ValueError for a start that the gas does not have."""
+        if self.initial_state == "steady":
+            check_start(self.gas, self.has_steady_state())
+        return super().fit_options(options)
 
     def initial(self, key: Key, options: Options) -> SlabState:
-        """The asked state, with total momentum zero and temperature exactly T0."""
+        """The asked state, with total momentum zero and exactly its temperature."""
         number, dtype = options.n_particles, options.dtype
         chance = uniform(random.fold_in(key, 0), number, dtype)
         place = initial_flow.places(self.initial_state, chance)
         difference = self.shear_rate * self.length
-        vx, vy, vz = initial_flow.peculiar(
-            self.initial_state, random.fold_in(key, 1), number, dtype
-        )
+        velocity = initial_flow.peculiar(self.initial_state, random.fold_in(key, 1), number, dtype)
+        fastest = FASTEST_PAIR
+        if self.initial_state == "steady":
+            velocity = sheared(velocity, self.gas, self.shear_rate)
+            fastest = FASTEST_PAIR * jnp.sqrt(temperature_of(velocity) / INITIAL_TEMPERATURE)
+        vx, vy, vz = velocity
         velocity = (vx + initial_flow.flow(self.initial_state, place, difference), vy, vz)
-        crowding = FIRST_CROWDING * pair_rate(self.gas, FASTEST_PAIR + difference)
+        crowding = FIRST_CROWDING * pair_rate(self.gas, fastest + difference)
         return SlabState(place * self.length, velocity, crowding)
 
     def wanted_step(self, moments: Stresses, options: Options) -> Scalar:

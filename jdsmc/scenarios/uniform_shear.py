@@ -4,13 +4,14 @@ Astillero and Santos, "Uniform shear flow in dissipative gases" (2005), sections
 peculiar velocities are kept, and convection is the inertial force -m a V_y x̂ (eq. 3.4).
 """
 
-from typing import Any, ClassVar
+from dataclasses import replace
+from typing import Any, ClassVar, Literal
 
 import jax.numpy as jnp
 import numpy as np
 
 from ..collisions.meet import Collisions
-from ..fields import number
+from ..fields import choice, number
 from ..gases import AbstractGas, ElasticHardSpheres
 from ..gases.hard_spheres import loses_energy
 from ..measure.balance import without_noise
@@ -22,19 +23,23 @@ from ..motion.drive import shear, sheared_drag, temperature_of
 from ..types import Key, Scalar, Velocity
 from ..units import MAXWELL_CUBED
 from .approach import Approach, of_sheared_gas
-from .homogeneous import AbstractHomogeneous
+from .homogeneous import AbstractHomogeneous, HomogeneousState
+from .kinetic_model import check_start, sheared
 from .options import Options
 
 STRESS = next(one for one in RHEOLOGY if one.name == "shear_stress")
 
 
 class UniformShear(AbstractHomogeneous):
-    """A gas under a constant shear rate, started from local equilibrium at T0 (eq. 3.12).
+    """A gas under a constant shear rate.
 
     Arguments:
         gas: any gas of three velocity components; `ElasticHardSpheres` with its drag.
         shear_rate: a in units of 1/τ0, at least 0; number or, for a sweep, a 1-D array.
-    Raises ValueError for a negative shear rate.
+        initial_state: "equilibrium" (local equilibrium at T0, eq. 3.12), which shows the approach;
+            or "steady", for steady values sooner: temperature and stresses of the kinetic model in
+            its steady state, of gases of hard spheres that have one.
+    Raises ValueError for other values.
     """
 
     command: ClassVar[str] = "shear"
@@ -50,6 +55,18 @@ class UniformShear(AbstractHomogeneous):
 
     gas: AbstractGas
     shear_rate: Any = number("shear rate a", "1/τ0", low=0.0, high_included=False, example=4.0)
+    initial_state: Literal["equilibrium", "steady"] = choice(
+        "local equilibrium at T0 (eq. 3.12), or the steady state of the kinetic model",
+        ("equilibrium", "steady"),
+        default="equilibrium",
+    )
+
+    def initial(self, key: Key, options: Options) -> HomogeneousState:
+        """Velocities with mean exactly zero, and exactly T0 or the temperature of the model."""
+        start = super().initial(key, options)
+        if self.initial_state == "equilibrium":
+            return start
+        return replace(start, velocity=sheared(start.velocity, self.gas, self.shear_rate))
 
     def step(
         self, key: Key, velocity: Velocity, majorant: Scalar, duration: Scalar, options: Options
@@ -102,7 +119,13 @@ class UniformShear(AbstractHomogeneous):
 
     def approach(self, options: Options) -> Approach:
         """That of the kinetic model."""
-        return of_sheared_gas(self.gas, self.shear_rate)
+        return of_sheared_gas(self.gas, self.shear_rate, self.initial_state == "steady")
+
+    def fit_options(self, options: Options) -> Options:
+        """As they are; ValueError for a start that the gas does not have."""
+        if self.initial_state == "steady":
+            check_start(self.gas, self.has_steady_state())
+        return super().fit_options(options)
 
     def observables(self, means: dict) -> dict:
         """Stresses and the viscometric functions, beside what every homogeneous gas has."""

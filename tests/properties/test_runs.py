@@ -47,7 +47,7 @@ class Kind:
 
 
 KINDS = [
-    Kind(UniformShear, SPHERES),
+    Kind(UniformShear, SPHERES, {"initial_state": "equilibrium"}),
     Kind(HomogeneousCooling, SPHERES),
     Kind(ShearedSlab, SPHERES, {"layers": 5, "initial_state": "equilibrium"}),
     Kind(FourierFlow, SPHERES, {"layers": 5, "wall": "maxwell"}, {"restitution": 1.0}),
@@ -55,9 +55,13 @@ KINDS = [
 if FULL:
     frictional = {"drag": "local", "rate_factor": "linear"}
     KINDS += [
-        Kind(UniformShear, jdsmc.ElasticHardSpheres, {}, frictional),
-        Kind(UniformShear, jdsmc.MaxwellMolecules),
-        Kind(UniformShear, SPHERES, options={"splitting": "lie", "time_step": 0.05}),
+        Kind(UniformShear, SPHERES, {"initial_state": "steady"}),
+        Kind(UniformShear, jdsmc.ElasticHardSpheres, KINDS[0].of_scene, frictional),
+        Kind(UniformShear, jdsmc.MaxwellMolecules, KINDS[0].of_scene),
+        Kind(
+            *(UniformShear, SPHERES, KINDS[0].of_scene),
+            options={"splitting": "lie", "time_step": 0.05},
+        ),
         Kind(HomogeneousCooling, DISKS, options={"n_particles": 96}),
         Kind(HomogeneousCooling, jdsmc.MaxwellMolecules),
         Kind(HeatFluxForce, SPHERES, {"scheme": "exact"}),

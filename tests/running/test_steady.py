@@ -153,13 +153,28 @@ def test_slow_approach_is_not_measured(approach, first):
     assert np.max(tracker.start) < (500 if approach.certain else records)
 
 
-def test_share_left_over():
+@pytest.mark.parametrize("first", [15.0, 7.5])
+def test_share_left_over(first):
     """Of a pure exponential the change between the windows tells what the late one is still off."""
     s, slow = np.arange(0.0, 90.0, 0.01), 7.0
     x = np.exp(-s / slow)
-    early, late = np.mean(x[(s >= 15) & (s < 30)]), np.mean(x[s >= 30])
+    early, late = np.mean(x[(s >= first) & (s < 30)]), np.mean(x[s >= 30])
     # The sums are Riemann's, with an error of 0.01/2/7 each.
-    assert left_over(30.0, 90.0, slow) == pytest.approx(late / (early - late), rel=2e-3)
+    assert left_over(first, 30.0, 90.0, slow) == pytest.approx(late / (early - late), rel=2e-3)
+
+
+def test_a_window_too_short_to_tell_settles_nothing():
+    """Changes that are no numbers (a fit to too few records), beside an error that is one."""
+    temperature = 1 + 0.05 * noise(1, 400)
+
+    def told(history, point, early, start):
+        change, uncertainty, error = changes(history, point, early, start)
+        return (change | {"T": np.nan}, uncertainty, error)
+
+    history, tracker = follow(temperature, Approach(NOISE_TIME))
+    assert tracker._settled(history, 0)
+    tracker._drift = told
+    assert not tracker._settled(history, 0)
 
 
 def test_drift_is_never_steady():
