@@ -101,12 +101,19 @@ def _draw_series(result):
 
 
 def _model_curves(panels, result) -> None:
-    """Dotted lines of the model, as in figures 7 and 8 of the paper."""
+    """Dotted lines of the model, as in figures 7 and 8 of the paper; steady where it starts so."""
     series, attrs = result.series, result.attrs
     time, rate = series["time"].values, attrs.get("parameter_shear_rate", 0.0)
     if not has_theory(attrs) or rate <= 0 or len(time) < 2:
         return
     alpha = attrs["parameter_restitution"]
+    if attrs.get("option_initial_state") == "steady":
+        model = bgk_shear_flow.steady_state(alpha, rate)
+        style = {"color": "k", "ls": ":", "lw": 1.2}
+        panels[0].axhline(float(np.asarray(model.temperature)), label="BGK model", **style)
+        panels[1].axhline(float(model.shear_stress), label="BGK model", **style)
+        panels[1].axhline(float(model.normal_stress_xy), **style)
+        return
     model = bgk_shear_flow.transient(alpha, rate, time)
     elastic = "ElasticHardSpheres" in common.gas_models(attrs)
     s = model.collisions * ((1.0 + alpha) / 2.0 if elastic else 1.0)

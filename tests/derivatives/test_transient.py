@@ -1,5 +1,6 @@
 """Derivatives at fixed time against equations of moments that close."""
 
+import dataclasses
 from typing import Any
 
 import jax.numpy as jnp
@@ -8,8 +9,9 @@ import pytest
 from scipy.linalg import expm
 
 import jdsmc
-from jdsmc.derivatives.numbers import slope
-from jdsmc.scenarios import UniformShear
+from jdsmc.derivatives.numbers import chosen_paths, slope
+from jdsmc.derivatives.start import check_start
+from jdsmc.scenarios import Options, UniformShear
 
 ALPHA, RATE, RECORD = 0.6, 2.0, 0.4
 
@@ -82,3 +84,38 @@ def test_moments_that_close():
             assert np.all(np.abs(value - truth)[1:] < 4 * allowed)
             # 6e4 particles: the derivative is known
             assert np.all(error[1:10] < 0.08 * np.max(np.abs(truth)))
+
+
+class HotStart(UniformShear):
+    """A gas that starts at a temperature of its own."""
+
+    heat: Any = jdsmc.number("T(0)/T0", low=0.0, default=1.0)
+
+    def initial(self, key, options):
+        start = super().initial(key, options)
+        hot = tuple(jnp.sqrt(self.heat) * v for v in start.velocity)
+        return dataclasses.replace(start, velocity=hot)
+
+
+@pytest.mark.parametrize(
+    ("scene", "wrt"),
+    [
+        (UniformShear(jdsmc.InelasticHardSpheres(0.7), 4.0, "steady"), "restitution"),
+        (UniformShear(jdsmc.InelasticHardSpheres(0.7), 4.0, "steady"), "shear_rate"),
+        (HotStart(jdsmc.InelasticHardSpheres(0.7), 4.0, heat=2.0), "heat"),
+    ],
+)
+def test_a_start_that_depends_on_the_number_is_refused(scene, wrt):
+    """Equations that begin at zero would be silently wrong."""
+    with pytest.raises(ValueError, match=f"{wrt} along the time series is not known"):
+        jdsmc.run(scene, duration=0.5, sensitivity=wrt, n_particles=256, progress=False)
+
+
+def test_a_start_that_does_not_is_not():
+    """What the velocities do not depend on reaches them nowhere, if the majorant depends on it."""
+    options = Options.checked(256, 0.05, "strang", "float32", 16)
+    gas = jdsmc.ElasticHardSpheres(0.7, rate_factor=0.5)
+    scene = HotStart(gas, 4.0, heat=2.0)
+    paths = {name: path for name, path in chosen_paths(scene, True).items() if name != "heat"}
+    assert len(paths) >= 3
+    check_start(scene, options, paths)

@@ -1,0 +1,46 @@
+"""Derivatives along a time series begin at zero: the start must not depend on the numbers."""
+
+from typing import Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+
+from .. import random, sweep
+from ..scenarios.base import AbstractScene
+from ..scenarios.options import Options
+
+
+def check_start(scene: AbstractScene, options: Options, paths: dict[str, str]) -> None:
+    """Raise ValueError for a scene whose first velocities depend on one of these numbers.
+
+    Arguments: the scene of one point; numbers by their short names. Nothing is computed: it is
+    looked up in the traced start which inputs reach the velocities.
+    """
+    for name, path in paths.items():
+        if _reaches(scene, options, path):
+            raise ValueError(
+                f"the derivative with respect to {name} along the time series is not known: the "
+                f"start of {type(scene).__name__} depends on it. Start from a state that does not "
+                '(initial_state = "equilibrium" of a sheared gas), or leave out duration and '
+                "collisions for derivatives of steady values."
+            )
+
+
+def _reaches(scene: AbstractScene, options: Options, path: str) -> bool:
+    numbers, rest = eqx.partition(scene, sweep.is_number)
+    numbers = jax.tree.map(lambda x: jnp.asarray(x, options.dtype), numbers)
+
+    def velocities(value):
+        def leaf(at, other):
+            return value if sweep.path_of(at) == path else other
+
+        changed: Any = eqx.combine(jax.tree_util.tree_map_with_path(leaf, numbers), rest)
+        return changed.initial(random.key_from_seed(0), options).velocity
+
+    traced = jax.make_jaxpr(velocities)(jnp.ones((), options.dtype)).jaxpr
+    reached = set(traced.invars)
+    for equation in traced.eqns:
+        if any(not hasattr(x, "val") and x in reached for x in equation.invars):
+            reached.update(equation.outvars)
+    return any(not hasattr(x, "val") and x in reached for x in traced.outvars)
