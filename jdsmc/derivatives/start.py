@@ -11,7 +11,7 @@ from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
 
 
-def check_start(scene: AbstractScene, options: Options, paths: dict[str, str]) -> None:
+def check_fixed_start(scene: AbstractScene, options: Options, paths: dict[str, str]) -> None:
     """Raise ValueError for a scene whose first velocities depend on one of these numbers.
 
     Arguments: the scene of one point; numbers by their short names. Nothing is computed: it is
@@ -39,8 +39,8 @@ def _reaches(scene: AbstractScene, options: Options, path: str) -> bool:
         return changed.initial(random.key_from_seed(0), options).velocity
 
     traced = jax.make_jaxpr(velocities)(jnp.ones((), options.dtype)).jaxpr
-    reached = set(traced.invars)
+    reached = {id(variable) for variable in traced.invars}
     for equation in traced.eqns:
-        if any(not hasattr(x, "val") and x in reached for x in equation.invars):
-            reached.update(equation.outvars)
-    return any(not hasattr(x, "val") and x in reached for x in traced.outvars)
+        if any(id(x) in reached for x in equation.invars):
+            reached.update(id(x) for x in equation.outvars)
+    return any(id(x) in reached for x in traced.outvars)

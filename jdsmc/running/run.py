@@ -7,7 +7,7 @@ import numpy as np
 
 from .. import check, sweep
 from ..derivatives.request import Request, requested
-from ..derivatives.start import check_start
+from ..derivatives.start import check_fixed_start
 from ..results.result import Result
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
@@ -89,10 +89,10 @@ def run(
     along = duration is not None or collisions is not None
     request = None if sensitivity is False else requested(scene, scenes, sensitivity, along=along)
     options = options_of(scenes, n_particles, time_step, splitting, dtype, steps_per_record)
-    if request is not None and request.sampler.each:
-        check_start(scenes[0], options, request.paths)
     scenes = [one.prepared() for one in scenes]
     check_methods(scenes[0], options)
+    if request is not None and request.sampler.each:
+        check_fixed_start(scenes[0], options, request.paths)
     limits = Limits(
         scenes,
         options,

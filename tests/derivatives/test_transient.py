@@ -10,7 +10,7 @@ from scipy.linalg import expm
 
 import jdsmc
 from jdsmc.derivatives.numbers import chosen_paths, slope
-from jdsmc.derivatives.start import check_start
+from jdsmc.derivatives.start import check_fixed_start
 from jdsmc.scenarios import Options, UniformShear
 
 ALPHA, RATE, RECORD = 0.6, 2.0, 0.4
@@ -118,4 +118,4 @@ def test_a_start_that_does_not_is_not():
     scene = HotStart(gas, 4.0, heat=2.0)
     paths = {name: path for name, path in chosen_paths(scene, True).items() if name != "heat"}
     assert len(paths) >= 3
-    check_start(scene, options, paths)
+    check_fixed_start(scene, options, paths)

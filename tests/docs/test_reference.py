@@ -38,7 +38,8 @@ def test_every_public_name(folder):
 def test_an_entry(folder):
     """Arguments, unit and range of a number; stars and angles stay what they are."""
     text = (folder / "api_scenes.md").read_text(encoding="utf-8")
-    assert "::::::{py:class} jdsmc.scenarios.UniformShear(gas, shear_rate)" in text
+    made = "UniformShear(gas, shear_rate, initial_state='equilibrium')"
+    assert f"::::::{{py:class}} jdsmc.scenarios.{made}" in text
     assert "| `shear_rate` | shear rate a | 1/τ0 | [0, ∞) |" in text
     assert "- `field`: reduced strength ε\\* = λ ε in [0, 2]" in text
     assert "On the command line: `jdsmc run fourier`." in text

@@ -137,7 +137,7 @@ def test_sheared_maxwell_molecules_of_ikenberry_and_truesdell():
     assert known["temperature"] > 3
     for name, expected in known.items():
         value, error = (float(series[n][-1]) for n in (name, f"{name}_error"))
-        assert error < 5e-3 * expected
+        assert error < 8e-3 * expected  # 4e-3, which eight realizations know to a quarter
         assert abs(value - expected) < 5 * error + 1e-3 * expected
 
 
