@@ -31,7 +31,7 @@ class Case:
         name: of its file, without suffix; the seed is made from it.
         scene: of `jdsmc.scenarios`, swept or not.
         options: of `jdsmc.run`, or of `navier_stokes` for its scene.
-        steady: if steady values are needed: a run of given length then goes on until it has some.
+        steady: if needed at every point: a run of given length then goes on until they are known.
     """
 
     name: str
@@ -58,7 +58,7 @@ class Case:
         """Run it."""
         options = {"seed": zlib.crc32(self.name.encode()), "progress": False, **self.options}
         result = self._once(options)
-        while self.steady and not (result.is_steady or result.interrupted):
+        while self.steady and not (steady_everywhere(result) or result.interrupted):
             clock = next(name for name in ("duration", "collisions") if name in options)
             options[clock] *= LONGER
             result = resume(result, progress=False, **{clock: options[clock]})
@@ -71,6 +71,12 @@ class Case:
         return run(self.scene, **options)
 
 
+def steady_everywhere(result: Result) -> bool:
+    """True if there are steady values at every point of a sweep."""
+    start = result.to_xarray().get("steady_from_collisions")
+    return result.is_steady and (start is None or bool(np.all(np.isfinite(start.values))))
+
+
 class Measurements:
     """Results of the cases of one size of a paper, by name; papers add how they look things up.
 
@@ -80,12 +86,8 @@ class Measurements:
     def __init__(self, size: Any, cases: Iterable[Case], folder: Path, fresh: bool = False):
         self.size, self.folder, self.fresh = size, folder, fresh
         self.cases = {case.name: case for case in cases}
-        self.results = {name: self.obtain(case) for name, case in self.cases.items()}
+        self.results = {n: store.obtain(case, folder, fresh) for n, case in self.cases.items()}
         self.verdicts: dict[Claim, Verdict] = {}
-
-    def obtain(self, case: Case) -> Result:
-        """The result of a case, from the store or simulated."""
-        return store.obtain(case, self.folder, self.fresh)
 
 
 @cache

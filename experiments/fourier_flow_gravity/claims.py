@@ -59,17 +59,14 @@ UNLIKELY = 0.01
 
 
 def relaxed(data: Fourier) -> Finding:
-    sweeps = [data.sweep(combination).steady for combination in COMBINATIONS]
-    worst = max(float(root["steady_from_time"].max()) for root in sweeps)
-    text = f"no drift is found from t = {worst:.0f} on, in all states"
-    return Finding(text, True if worst < 200 else None)
+    worst = max(float(data.sweep(c).steady["steady_from_time"].max()) for c in COMBINATIONS)
+    return Finding(f"no drift is found from t = {worst:.0f} on, in all states", worst < 200 or None)
 
 
 def _uniform(test, what: str, data: Fourier) -> Finding:
     """A balance law in layers that are thin enough, and in all."""
     states = [data.realizations(c, float(g)) for c in COMBINATIONS for g in data.gravity[c]]
-    everywhere = [test(state, thin=False) for state in states]
-    tested = [test(state) for state in states]
+    tested, everywhere = ([test(state, thin=t) for state in states] for t in (True, False))
     text = f"{what} in layers thinner than {balance.THIN:g} λ': {_described(tested)}"
     return Finding(f"{text}; in all: {_described(everywhere)}", _not_too_small(tested, data))
 

@@ -8,6 +8,7 @@ import xarray as xr
 from jdsmc import Estimate
 from jdsmc.gases.hard_spheres import RATE_FACTORS
 
+from .. import store
 from ..case import Measurements, at, estimate, steady
 from ..numbers import mean, stack
 from ..paper import Paper
@@ -120,7 +121,7 @@ class Repeated:
         """A steady value at one point."""
         case = self.data.cases[f"steady_{gas}"]
         again = variation(case, gas, restitution, shear_rate, self.label)
-        return steady(self.data.obtain(again), name)
+        return steady(store.obtain(again, self.data.folder, self.data.fresh), name)
 
 
 def profile(series: xr.Dataset, name: str) -> Curve:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+import jdsmc
 from experiments import case, store
 from jdsmc import InelasticHardSpheres, Result
 from jdsmc.scenarios import HomogeneousCooling, UniformShear
@@ -145,3 +146,13 @@ def test_plain_data_is_kept_with_what_was_asked(tmp_path):
     for asked in ({"n": 1}, {"n": 1}, {"n": 2}):
         assert store.kept(path, asked, compute) == {"value": 1.5}
     assert len(made) == 2
+
+
+def test_every_point_of_a_sweep_becomes_steady():
+    """Near the elastic limit a gas takes ten times as long: the whole sweep goes on for it."""
+    scene = UniformShear(InelasticHardSpheres([0.5, 0.95]), 4.0)
+    options = {"n_particles": 256, "collisions": 30.0, "progress": False}
+    short = jdsmc.run(scene, **options)
+    assert short.is_steady and not case.steady_everywhere(short)
+    found = case.Case("sweep", scene, options).simulate()
+    assert case.steady_everywhere(found)
