@@ -20,8 +20,8 @@ def tangent(arrays, path: str):
     return jax.tree_util.tree_map_with_path(leaf, arrays)
 
 
-def shifted(scene: AbstractScene, path: str, by: float) -> Any:
-    """The scene with one of its numbers changed."""
+def shifted(scene: AbstractScene, path: str, by: Any) -> Any:
+    """The scene with one of its numbers changed by a number, of the host or traced."""
     chosen, rest = eqx.partition(scene, sweep.is_number)
 
     def leaf(at, value):
