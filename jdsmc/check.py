@@ -1,5 +1,8 @@
 """Checks of user input on the host: one clear sentence naming the parameter and its range."""
 
+import os
+from pathlib import Path
+
 import jax
 import jax.core
 import numpy as np
@@ -74,6 +77,13 @@ def whole(name, value, low) -> int:
     return int(value)
 
 
+def path(name, value) -> Path:
+    """The value as a path; TypeError for what names no file."""
+    if not isinstance(value, str | os.PathLike):
+        raise TypeError(f"{name} must be the path of a file, got {value!r}.")
+    return Path(value)
+
+
 def counted(value):
     """An int for what is whole (20.0, NumPy's integers); the rest is left for `at_least`."""
     numeric = isinstance(value, float | np.number) and np.isfinite(value)
@@ -85,11 +95,12 @@ def at_least(name, value, low) -> None:
     whole(name, value, low)
 
 
-def size(name, value, low) -> int:
-    """As `whole`, of a value that no array is too large for."""
+def size(name, value, low, most=MOST) -> int:
+    """As `whole`, of a value below `most`, a power of two: by default what arrays can hold."""
     found = whole(name, value, low)
-    if found >= MOST:
-        raise ValueError(f"{name} = {value} is outside the allowed range [{low}, 2^31).")
+    if found >= most:
+        power = int(most).bit_length() - 1
+        raise ValueError(f"{name} = {value} is outside the allowed range [{low}, 2^{power}).")
     return found
 
 

@@ -1,14 +1,19 @@
 """Numbers with one standard error, and arithmetic that propagates it."""
 
-import itertools
+import uuid
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from . import check
 
-_anonymous = itertools.count()
+
+class Point(NamedTuple):
+    """One point of the sweep that a run made: what stems from it alone."""
+
+    run: Any
+    number: int
 
 
 class Estimate:
@@ -34,42 +39,69 @@ class Estimate:
     ):
         """`left_out`: for every run, the values with one realization left out (R, ...).
 
-        `points`: a number for each element, equal for those measured on the same gas (a profile, a
-        correlation in time); by default every element is a gas of its own. `freedom`: the degrees
-        of freedom of each run's share of the error, R - 1 if not said; without a run the error
-        counts as known.
+        `points`: a number for each element, that of its point in the sweep which a run made, equal
+        for what was measured on the same gas (a profile, a correlation in time); by default every
+        element is a gas of its own. Of several runs, a dict. `freedom`: the degrees of freedom of
+        each run's share of the error, R - 1 if not said; without a run the error counts as known.
         """
         if np.any(np.asarray(error) < 0):
             raise ValueError(f"error = {error} is outside the allowed range [0, inf).")
         self.value, self.error = value, error
-        shape = np.shape(value)
-        self._points = np.arange(np.size(value)).reshape(shape) if points is None else points
         if left_out is None:  # two pseudo-realizations that give just this error
             both = np.stack([np.subtract(value, error), np.add(value, error)])
-            left_out = {next(_anonymous): both}
+            left_out = {uuid.uuid4().hex: both}
             freedom = dict.fromkeys(left_out, np.inf)
         self._left_out = left_out
         self._freedom = freedom or {run: len(x) - 1.0 for run, x in left_out.items()}
+        if not isinstance(points, dict):
+            if points is None:
+                points = np.arange(np.size(value)).reshape(np.shape(value))
+            points = {run: points for run in left_out if not isinstance(run, Point)}
+        self._points: dict[Any, Any] = points
 
     def __iter__(self) -> Iterator:
         return iter((self.value, self.error))
 
     def __getitem__(self, index) -> "Estimate":
         """One element of an array, or some of them; points of a sweep are independent."""
-        points = np.asarray(self._points)[index]
-        chosen, all_of_them = (tuple(np.unique(x).tolist()) for x in (points, self._points))
-        part = () if chosen == all_of_them else (chosen,)
-        left_out = {
-            (run, *part) if part else run: x[(slice(None), *np.index_exp[index])]
-            for run, x in self._left_out.items()
-        }
+        left_out, freedom, points = {}, {}, {}
         value, error = (np.asarray(x)[index] for x in (self.value, self.error))
-        shape = np.shape(self.value)
-        freedom = {
-            new: np.broadcast_to(self._freedom[run], shape)[index]
-            for new, run in zip(left_out, self._left_out, strict=True)
-        }
+        for key, replicas in self._left_out.items():
+            new, there = key, self._points.get(key)
+            if there is not None:
+                there = np.asarray(there)[index]
+                if len(numbers := np.unique(there)) == 1:
+                    new = Point(key, int(numbers[0]))
+                else:
+                    points[key] = there
+            left_out[new] = replicas[(slice(None), *np.index_exp[index])]
+            freedom[new] = np.broadcast_to(self._freedom[key], np.shape(self.value))[index]
         return Estimate(value, error, left_out, points, freedom)
+
+    def _runs(self) -> list:
+        """The runs that it stems from."""
+        return [key.run if isinstance(key, Point) else key for key in self._left_out]
+
+    def _numbers(self, run) -> set[int]:
+        """The points of a run that it stems from."""
+        if run in self._points:
+            return set(np.unique(self._points[run]).tolist())
+        return {k.number for k in self._left_out if isinstance(k, Point) and k.run == run}
+
+    def _share(self, key) -> tuple[Any, Any] | None:
+        """Values with one realization left out of a run, or of one point of it; their freedom.
+
+        None if it does not stem from there.
+        """
+        if key in self._left_out:
+            return self._left_out[key], self._freedom[key]
+        if not isinstance(key, Point) or key.run not in self._points:
+            return None
+        here = np.asarray(self._points[key.run]) == key.number
+        if not np.any(here):
+            return None
+        freedom = np.broadcast_to(self._freedom[key.run], np.shape(self.value))[here]
+        return np.where(here, self._left_out[key.run], self.value), np.min(freedom)
 
     def mean(self, axis: int | None = None, dtype=None, out=None) -> "Estimate":
         """Over the elements, or along one axis; points of a sweep are independent."""
@@ -180,42 +212,64 @@ class Estimate:
 def combine(function: Callable, *inputs) -> Estimate:
     """A smooth function of estimates and plain numbers, with its error.
 
-    Each run in turn leaves out its realizations while the other inputs keep their values.
+    Each run in turn leaves out its realizations while the other inputs keep their values; and
+    where inputs stem from different points of its sweep, or the function mixes points, one point
+    after the other does.
     """
     values = [x.value if isinstance(x, Estimate) else x for x in inputs]
     value = function(*values)
-    runs = {run for x in inputs if isinstance(x, Estimate) for run in x._left_out}
-    left_out, freedom = {}, {}
+    left_out, freedom, points = {}, {}, {}
     variance = np.zeros(np.shape(value))
-    for run in runs:
-        changed = [
-            x._left_out[run] if isinstance(x, Estimate) and run in x._left_out else None
-            for x in inputs
-        ]
-        counts = {len(x) for x in changed if x is not None}
-        if len(counts) > 1:
-            raise ValueError("these estimates stem from different windows of one run.")
-        replicas = np.stack(
-            [
-                np.asarray(
-                    function(
-                        *(v if c is None else c[r] for v, c in zip(values, changed, strict=True))
-                    )
-                )
-                for r in range(counts.pop())
+    estimates = [x for x in inputs if isinstance(x, Estimate)]
+    for run in dict.fromkeys(run for x in estimates for run in x._runs()):
+        alike = _common_points(run, estimates)
+        if alike is not None and np.shape(alike) == np.shape(value):
+            keys, points[run] = [run], alike
+        else:
+            keys = [
+                Point(run, k) for k in sorted(set().union(*(x._numbers(run) for x in estimates)))
             ]
-        )
-        left_out[run], freedom[run] = replicas, _least_freedom(run, inputs, np.shape(value))
-        variance = variance + (len(replicas) - 1) * np.var(replicas, axis=0)
+        for key in keys:
+            shares = [x._share(key) if isinstance(x, Estimate) else None for x in inputs]
+            left_out[key] = _replicas(function, values, shares)
+            freedom[key] = _least_freedom([x[1] for x in shares if x], np.shape(value))
+            variance = variance + (len(left_out[key]) - 1) * np.var(left_out[key], axis=0)
     error = np.sqrt(variance)
-    alike = [x._points for x in inputs if isinstance(x, Estimate)]
-    points = next((x for x in alike if np.shape(x) == np.shape(value)), None)
     return Estimate(value, error if np.ndim(error) else float(error), left_out, points, freedom)
 
 
-def _least_freedom(run, inputs, shape: tuple[int, ...]):
-    """Degrees of freedom of a run's share: element by element where shapes allow it."""
-    each = [x._freedom[run] for x in inputs if isinstance(x, Estimate) and run in x._freedom]
+def _common_points(run, estimates: list[Estimate]):
+    """Points of the elements, if all that stem from a run have the same; else None."""
+    involved = [x for x in estimates if run in x._runs()]
+    known = [x._points.get(run) for x in involved]
+    first = known[0]
+    if first is None or not all(x is not None and np.array_equal(x, first) for x in known):
+        return None
+    return first
+
+
+def _replicas(function: Callable, values: list, shares: list) -> np.ndarray:
+    """The function with each realization left out: (realizations, ...)."""
+    counts = {len(x[0]) for x in shares if x is not None}
+    if len(counts) > 1:
+        raise ValueError(
+            "these estimates stem from different windows of one run, or from different numbers of "
+            "its realizations; take another seed for one of them."
+        )
+    return np.stack(
+        [
+            np.asarray(
+                function(
+                    *(v if x is None else x[0][r] for v, x in zip(values, shares, strict=True))
+                )
+            )
+            for r in range(counts.pop())
+        ]
+    )
+
+
+def _least_freedom(each: list, shape: tuple[int, ...]):
+    """Degrees of freedom of a share: element by element where shapes allow it."""
     return np.min([x if np.shape(x) == shape else np.min(x) for x in each], axis=0)
 
 

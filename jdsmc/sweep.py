@@ -84,12 +84,14 @@ def swept_paths(scene) -> dict[str, np.ndarray]:
         if value.ndim > facts(scene, path).get("axes", 0)
     }
     for path, value in swept.items():
-        different, often = np.unique(value, axis=0, return_counts=True)
+        seen = value.astype(np.float32)  # as `fingerprint` has them
+        _, first, often = np.unique(seen, axis=0, return_index=True, return_counts=True)
         if np.any(often > 1):
-            twice = different[np.argmax(often)]
+            twice = value[first[np.argmax(often)]]
             raise ValueError(
-                f"{path.split('.')[-1]} = {twice} is there twice; points of a sweep must differ: "
-                "for more statistics take n_realizations, or another seed."
+                f"{path.split('.')[-1]} = {twice} is there twice; points of a sweep must differ, "
+                "by more than the digits of float32: for more statistics take n_realizations, or "
+                "another seed."
             )
     return swept
 

@@ -1,5 +1,7 @@
 """Bad input is refused with one sentence that names the parameter and what is allowed."""
 
+from pathlib import Path
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -136,3 +138,10 @@ def test_options(changed, words):
         Options.checked(**good | {"n_particles": 1000.5})
     with pytest.raises(ValueError, match=words):
         Options.checked(**good | changed)
+
+
+def test_path():
+    assert check.path("checkpoint", "a/b.h5") == Path("a/b.h5") == check.path("", Path("a/b.h5"))
+    for other in (3, b"a.h5", None):
+        with pytest.raises(TypeError, match="checkpoint must be the path of a file, got"):
+            check.path("checkpoint", other)

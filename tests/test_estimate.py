@@ -1,5 +1,9 @@
 """Estimates: how they are printed, and arithmetic that propagates their errors."""
 
+import pickle
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -212,3 +216,41 @@ def test_mean_and_sum_of_a_sweep():
     rows = Estimate(np.ones((2, 3)), np.full((2, 3), 0.1))
     assert rows.sum(axis=1).value == pytest.approx([3.0, 3.0])
     assert rows.mean(axis=0).error == pytest.approx(np.full(3, 0.1 / np.sqrt(2)))
+
+
+def test_a_sweep_beside_one_of_its_points():
+    """Nothing is left of a point less itself; the others are independent of it."""
+    (sweep,) = measured("run", [x_of], shape=(2, 3))
+    value, error = sweep - sweep[0, 1]
+    assert value[0, 1] == 0.0 == error[0, 1]
+    others = np.arange(6).reshape(2, 3) != 1
+    apart = np.hypot(sweep.error, sweep.error[0, 1])
+    np.testing.assert_allclose(error[others], apart[others], rtol=1e-12)
+    for one, same in ((sweep[0][1], sweep[0, 1]), (sweep[:, 1][0], sweep[0, 1])):
+        assert (one - same).error == 0.0
+    assert (sweep[0] - sweep[0, :]).error == pytest.approx(np.zeros(3), abs=1e-15)
+
+
+def test_a_number_that_all_elements_share():
+    """(x1 + c) + (x2 + c): the error of c counts twice, whole; of x and c in either order."""
+    (sweep,), (other,) = measured("run", [x_of], shape=(2,)), measured("other", [x_of], seed=5)
+    expected = np.sqrt(np.sum(sweep.error**2) + 4.0 * other.error**2)
+    for found in (sweep + other, other + sweep):
+        assert found.sum().error == pytest.approx(expected, rel=1e-12)
+        assert (found[0] - found[1]).error == pytest.approx(np.hypot(*sweep.error), rel=1e-12)
+
+
+def test_a_function_that_mixes_points():
+    """Their errors add in squares, exactly for a sum."""
+    (sweep,) = measured("run", [x_of], shape=(4,))
+    total = combine(np.sum, sweep)
+    assert total.error == pytest.approx(np.sqrt(np.sum(sweep.error**2)), rel=1e-12)
+    assert total.error == pytest.approx(sweep.sum().error, rel=1e-12)
+
+
+def test_numbers_of_two_processes_are_independent():
+    """What is pickled in one process is not taken for another's of the same count."""
+    script = "import pickle, sys, jdsmc; pickle.dump(jdsmc.Estimate(1.0, 0.1), sys.stdout.buffer)"
+    command = [sys.executable, "-c", script]
+    made = [pickle.loads(subprocess.check_output(command)) for _ in range(2)]
+    assert (made[0] - made[1]).error == pytest.approx(np.sqrt(2.0) * 0.1, rel=1e-12)

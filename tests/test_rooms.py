@@ -10,6 +10,7 @@ import pytest
 ROOT = Path(__file__).parents[1] / "jdsmc"
 ORDER = (
     {"units", "types", "check", "errors", "random", "fields", "sweep", "stats", "estimate", "sums"},
+    {"own_code"},
     {"files"},
     {"theory"},
     {"gases"},

@@ -132,3 +132,10 @@ def test_fingerprints_tell_points_apart():
     assert len(set(prints)) == len(prints)
     rounded = UniformShear(InelasticHardSpheres(np.arange(0.3, 0.9, 0.1)[4]), 4.0)
     assert rounded.gas.restitution != 0.7 and sweep.fingerprint(rounded) == prints[0]
+
+
+def test_points_that_float32_does_not_tell_apart():
+    """They would have the same random numbers, and pass for independent."""
+    for values in ([0.7, 0.7 + 1e-9], [0.7, 0.9, 0.7]):
+        with pytest.raises(ValueError, match=r"restitution = 0\.7.* is there twice"):
+            sweep.points(UniformShear(InelasticHardSpheres(values), 4.0))

@@ -13,6 +13,7 @@ from ..files.look import is_hdf5
 from ..files.writable import check_writable
 from ..results.join import join_gases
 from ..results.result import Result
+from ..running.checkpoint import previous
 from ..running.hosts import is_first
 from ..running.progress import interruptible
 
@@ -25,14 +26,20 @@ INTERRUPTED = 130
 """Exit status after a signal, as shells have it."""
 
 
-def check_files(out: str | None, plot: str | None) -> None:
-    """Raise ValueError or OSError, before a run, unless both files can be written."""
+def check_files(out: str | None, plot: str | None, kept: str | None = None) -> None:
+    """Raise ValueError or OSError, before a run, unless all files can be written.
+
+    `kept` is the checkpoint of the run, beside which lies the one before it.
+    """
     if out is not None:
         check_writable(out)
     if plot is not None:
         check_picture(plot)
     if out is not None and plot is not None and Path(out).resolve() == Path(plot).resolve():
         raise ValueError(f"--out and --plot are the same file {out}; give two names.")
+    for file in (kept, previous(Path(kept))) if kept is not None else ():
+        if out is not None and Path(out).resolve() == Path(file).resolve():
+            raise ValueError(f"--out is {out}, which keeps the run; give another name.")
 
 
 def check_picture(path: str | Path) -> Path:

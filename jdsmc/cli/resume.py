@@ -47,7 +47,7 @@ def resume(words: list[str]) -> int:
         print(parser().format_help(), end="")
         return 0
     asked = parser().parse_args(words)
-    check_files(asked.out, asked.plot)
+    check_files(asked.out, asked.plot, asked.file)
     given = {name: getattr(asked, name) for name in LIMITS}
     limits: dict[str, Any] = {
         name: one_number(name, text) for name, text in given.items() if text is not None

@@ -23,7 +23,7 @@ def simulate(command: str, name: str, words: list[str]) -> int:
         return 0
     several = command == "sweep"
     asked = arguments.read(several)
-    check_files(asked.out, asked.plot)
+    check_files(asked.out, asked.plot, asked.run.get("checkpoint"))
     if asked.run.get("checkpoint") is not None and len(asked.scenes) > 1:
         raise ValueError("--checkpoint keeps the run of one gas; give one --gas.")
     if asked.run.get("dtype") == "float64":

@@ -4,6 +4,7 @@ import os
 import stat
 from pathlib import Path
 
+from .. import check
 from .seal import beside
 
 
@@ -13,7 +14,7 @@ def check_writable(path: str | Path, overwrite: bool = False) -> Path:
     Raises FileExistsError unless `overwrite`, FileNotFoundError without the folder, PermissionError
     for what the system refuses.
     """
-    path = Path(path)
+    path = check.path("path", path)
     try:
         there = stat.S_IFMT(os.lstat(path).st_mode)
     except (FileNotFoundError, NotADirectoryError):

@@ -1,5 +1,8 @@
 """What a gas of the user's own must return, asked on the host before anything is compiled."""
 
+from collections.abc import Callable
+from typing import Any
+
 import jax
 import jax.core
 import numpy as np
@@ -26,7 +29,7 @@ def check_rules(gas) -> None:
 
 
 def _check_rate(gas, name: str) -> None:
-    every, first = gas.rate(PROBES), gas.rate(PROBES[:1])
+    every, first = (_called(f"{name}.rate", gas.rate, x) for x in (PROBES, PROBES[:1]))
     rates = _numbers(f"{name}.rate must return a real number for each relative speed", every)
     if rates.shape not in {(), PROBES.shape}:
         raise TypeError(
@@ -53,7 +56,7 @@ def _check_rate(gas, name: str) -> None:
 def _check_transfer(gas, name: str) -> None:
     none = (np.zeros_like(PROBES),) * (gas.dimension - 1)
     relative, outgoing = (PROBES, *none), (0.6 * PROBES, 0.8 * PROBES, *none[1:])
-    found = gas.momentum_transfer(relative, outgoing)
+    found = _called(f"{name}.momentum_transfer", gas.momentum_transfer, relative, outgoing)
     must = (
         f"{name}.momentum_transfer must return {gas.dimension} components, an array of real "
         "numbers each"
@@ -69,6 +72,25 @@ def _check_transfer(gas, name: str) -> None:
                 f"{name}.momentum_transfer gives a number that is not finite for relative speeds "
                 f"of {PROBES[0]:g} to {PROBES[-1]:g} v0."
             )
+
+
+def _called(name: str, method: Callable, *arguments) -> Any:
+    """What a method returns; TypeError, which names it, for one that cannot be compiled."""
+    try:
+        jax.eval_shape(lambda *given: (method(*given), None)[1], *arguments)
+    except (jax.errors.JAXTypeError, ValueError) as error:
+        refuse_untraced(name, error)
+        raise
+    return method(*arguments)
+
+
+def refuse_untraced(name: str, error: Exception) -> None:
+    """Raise TypeError, with the name of the method, for one that asks for values of arrays."""
+    if isinstance(error, jax.errors.JAXTypeError) or "truth value of an array" in str(error):
+        raise TypeError(
+            f"{name} cannot be compiled: it asks for the values of arrays, by `if`, `float` or a "
+            "function of NumPy; use jax.numpy, and jnp.where in place of `if`."
+        ) from error
 
 
 def _numbers(must: str, found) -> np.ndarray:

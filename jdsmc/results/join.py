@@ -2,7 +2,7 @@
 
 import xarray as xr
 
-from .result import Result
+from .result import PLACES, Result
 
 
 def join_gases(results: dict[str, Result]) -> Result:
@@ -21,6 +21,7 @@ def join_gases(results: dict[str, Result]) -> Result:
         groups["/series"] = groups["/series"].set_coords("time")
     swept = next(iter(results.values())).attrs.get("swept", "")
     groups["/"].attrs["swept"] = f"gas {swept}".strip()
+    groups["/"].attrs.pop(PLACES, None)  # of parts of sweeps
     for name in ("stopped", "gas_model"):
         each = {gas: r.attrs[name] for gas, r in results.items()}
         same = len(set(each.values())) == 1

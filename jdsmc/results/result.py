@@ -21,6 +21,9 @@ from .sensitivity import Sensitivity
 FREEDOM = "degrees_of_freedom"
 """Of the printed errors of each point: realizations less one (blocks, of correlations in time)."""
 
+PLACES = "points_of_sweep"
+"""Of a part of a sweep: which points these are."""
+
 
 class Result:
     """What a run measured.
@@ -34,7 +37,11 @@ class Result:
         self._tree = tree
         self._sensitivity: Sensitivity | None = None
         self.under_way: Any = None
-        """The run that made it, for `jdsmc.resume`; None if it was loaded, joined or cut."""
+        """The run that made it, for `jdsmc.resume`; None if loaded, joined, cut or copied."""
+
+    def __getstate__(self) -> dict:
+        """What is pickled and copied (multiprocessing, joblib): all but the gas itself."""
+        return vars(self) | {"under_way": None, "_sensitivity": None}
 
     def __getitem__(self, name: str) -> Estimate:
         """Steady mean and error of an observable; KeyError names what there is."""
@@ -47,22 +54,29 @@ class Result:
                 )
             raise KeyError(f"no observable {name!r}; there are {', '.join(self)}.")
         value, error = steady[name].values, steady[f"{name}_error"].values
-        left_out = None
+        left_out, freedom = None, None
         if "left_out" in self._tree.children:
             values = self._tree["left_out"].to_dataset()[name].transpose("realization", ...).values
-            left_out = {(self.attrs["run"], self.attrs.get("point", "")): values}
-        swept = [n for n, d in zip(value.shape, steady[name].dims, strict=True) if d in self.dims]
-        points = np.arange(np.prod(swept, dtype=int)).reshape(
-            swept + [1] * (value.ndim - len(swept))
-        )
-        points = np.broadcast_to(points, value.shape)
+            left_out = {self.attrs["run"]: values}
+        points = self.points_of(steady[name].dims, value.shape)
         value, error = (x if x.ndim else float(x) for x in (value, error))
-        freedom = None
         if left_out is not None and FREEDOM in steady:
             known = steady[FREEDOM].values
             known = known.reshape(known.shape + (1,) * (np.ndim(value) - known.ndim))
             freedom = dict.fromkeys(left_out, np.broadcast_to(known, np.shape(value)))
         return Estimate(value, error, left_out, points, freedom)
+
+    def points_of(self, dims, shape: tuple[int, ...]) -> np.ndarray:
+        """For each element of an array over these dimensions its point in the sweep of the run."""
+        swept = [n for n, d in zip(shape, dims, strict=True) if d in self.dims]
+        places = np.reshape(self._places(), swept + [1] * (len(shape) - len(swept)))
+        return np.broadcast_to(places, shape)
+
+    def _places(self) -> np.ndarray:
+        """Numbers of the points in the sweep of the run, of which these may be some."""
+        sizes = [self.steady.sizes[name] for name in self.dims]
+        places = np.atleast_1d(self._tree.attrs.get(PLACES, np.arange(np.prod(sizes, dtype=int))))
+        return places.reshape(sizes)
 
     def __contains__(self, name: object) -> bool:
         steady = self.steady
@@ -143,6 +157,8 @@ class Result:
             if f"parameter_{name}" in attrs:
                 attrs[f"parameter_{name}"] = float(values[index])
         attrs["swept"] = " ".join(name for name in self.dims if name not in chosen)
+        picked = tuple(chosen.get(name, slice(None)) for name in self.dims)
+        attrs[PLACES] = np.ravel(self._places()[picked])
         attrs.pop("specification", None)  # that of the whole sweep
         groups["/"].attrs = attrs
         return Result(xr.DataTree.from_dict(groups))
@@ -157,7 +173,8 @@ class Result:
         ):
             raise KeyError(f"{name} = {value!r} is not one of the values run, {self._run(values)}.")
         if values.dtype.kind == "f":
-            found = np.flatnonzero(np.isclose(values, value, rtol=1e-6, atol=1e-12))
+            nearest = int(np.argmin(np.abs(values - value)))
+            found = [nearest] if np.isclose(values[nearest], value, rtol=1e-6, atol=0.0) else []
         else:
             found = np.flatnonzero(values == value)
         if not len(found):

@@ -17,8 +17,8 @@ class Derivative(Estimate):
     Arithmetic is that of `Estimate`, and propagates the error.
     """
 
-    def __init__(self, value, error, truncation, left_out: dict | None = None):
-        super().__init__(value, error, left_out)
+    def __init__(self, value, error, truncation, left_out: dict | None = None, points=None):
+        super().__init__(value, error, left_out, points)
         self.truncation = truncation
 
     @property
@@ -90,13 +90,12 @@ class Sensitivity:
             found[f"{name}{suffix}"].values for suffix in ("", "_error", "_truncation")
         )
         value, error, truncation = (x if x.ndim else float(x) for x in (value, error, truncation))
-        tree, left_out = self.result.to_xarray(), None
+        tree, left_out, points = self.result.to_xarray(), None, None
         if "sensitivity_left_out" in tree.children:
             data = tree["sensitivity_left_out"].to_dataset().sel(parameter=parameter)[name]
-            attrs = self.result.attrs
-            values = data.transpose("realization", ...).values
-            left_out = {(attrs["run"], attrs.get("point", "")): values}
-        return Derivative(value, error, truncation, left_out)
+            left_out = {self.result.attrs["run"]: data.transpose("realization", ...).values}
+            points = self.result.points_of(found[name].dims, np.shape(value))
+        return Derivative(value, error, truncation, left_out, points)
 
     @property
     def series(self) -> xr.Dataset:

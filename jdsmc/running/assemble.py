@@ -113,7 +113,7 @@ def assemble(scene: AbstractScene, session: Session, can_be_steady: bool, attrs:
     root.attrs = provenance(scene, options) | attrs
     root.attrs["swept"] = " ".join(labels.dims)
     root.attrs["n_records"] = history.length
-    root.attrs["run"] = run_name(scene, options, attrs["seed"], history.length)
+    root.attrs["run"] = run_name(scene, options, attrs["seed"])
     groups["/"] = root
     return Result(xr.DataTree.from_dict(groups))
 

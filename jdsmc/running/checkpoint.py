@@ -43,12 +43,17 @@ class Keeper:
 
     def __init__(self, path: str | Path, every, scene: AbstractScene, chosen: dict, *, new: bool):
         check.scalar("every", every, 0.0, np.inf, high_included=False)
-        self.path = Path(path)
+        self.path = check.path("checkpoint", path)
         check_writable(self.path, overwrite=True)
         if new and hosts.is_first() and self.path.exists():
             raise FileExistsError(
                 f"{path} exists; go on with it by jdsmc.resume({str(path)!r}), or choose another "
                 "name."
+            )
+        if new and hosts.is_first() and previous(self.path).exists():
+            raise FileExistsError(
+                f"{previous(self.path)} exists, where the checkpoint before the last one is kept; "
+                "choose another name for checkpoint, or move that file."
             )
         self._every = float(every)
         self._told = {"scene": specification(scene), "chosen": specification(chosen)}

@@ -18,6 +18,7 @@ from jax import lax
 
 from .. import random, sweep
 from ..derivatives.sampling import Sampler
+from ..own_code import Code
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
 from . import hosts
@@ -60,9 +61,12 @@ class Engine:
             first, device = number * size, devices[count % len(devices)]
             self._scenes.append(_placed(_group(batch, first, size), device, options))
             self._keys.append(jax.device_put(_stacked(_group(keys, first, size)), device))
+        self._code, self._wide = Code(scenes[0]), bool(jax.config.read("jax_enable_x64"))
         work = list(zip(self._scenes, self._keys, strict=True))
         self._pool = ThreadPoolExecutor(min(len(work), max(cores(), len(devices))))
-        self.states: list[Any] = self._share(lambda n: _start(work[n][0], work[n][1], options))
+        self.states: list[Any] = self._share(
+            lambda n: _start(work[n][0], work[n][1], options, self._code)
+        )
 
     def advance(self, watch: bool = True):
         """One chunk. Returns (records, sample): pytrees of arrays (points, realizations, ...).
@@ -73,7 +77,9 @@ class Engine:
 
         def work(number: int):
             kept = self._scenes[number], self._keys[number], first, np.bool_(watch)
-            state, output = _advance(kept, self.states[number], self.options, self.sampler)
+            state, output = _advance(
+                kept, self.states[number], self.options, self.sampler, self._code
+            )
             return state, jax.tree.map(lambda x: np.asarray(x, dtype=float), output)
 
         done = self._share(work)
@@ -100,18 +106,24 @@ class Engine:
         """Work for every group; the first compiles for all, threads at once would compile twice."""
         numbers = range(len(self._scenes))
         first = [work(0)] if self.chunks == 0 else []
-        return first + list(self._pool.map(work, numbers[len(first) :]))
+
+        def in_thread(number: int):
+            with jax.enable_x64(self._wide):  # as where the engine was made: threads do not know
+                return work(number)
+
+        return first + list(self._pool.map(in_thread, numbers[len(first) :]))
 
 
 @eqx.filter_jit
-def _start(scene, keys, options: Options):
+def _start(scene, keys, options: Options, code: Code):
     return _each(lambda s, k: s.initial(k, options), scene, keys)
 
 
 @eqx.filter_jit(donate="all-except-first")
-def _advance(kept, states, options: Options, sampler: Sampler | None):
+def _advance(kept, states, options: Options, sampler: Sampler | None, code: Code):
     """One chunk for every gas: records are (gases, records, ...), samples (gases, ...).
 
+    `code` tells one program from another: what scene and gas do, if they are the user's own.
     The states are overwritten: two copies of a gas would be half of all memory.
     """
     scene, keys, first_record, watch = kept

@@ -45,5 +45,6 @@ def check_collisions(history, record) -> None:
     if excess > max(TOLERATED * total, 1.0):
         raise FaultError(
             f"Collision probabilities above one cost {excess:.1f} of {total:.0f} collisions: the "
-            "fastest pairs outran the majorant; reduce time_step."
+            "fastest pairs outran the majorant; reduce time_step (none helps if a gas of your "
+            "own makes energy in collisions)."
         )

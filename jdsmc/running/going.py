@@ -15,6 +15,9 @@ from .session import Session
 INTERRUPTED = "interrupted"
 """First word of what is said of a run that was ended by a signal."""
 
+FAULT = "fault"
+"""And by a FaultError."""
+
 
 class UnderWay(NamedTuple):
     """What a result must know to go on: the run as it stood when the result was made."""
@@ -53,7 +56,7 @@ def go_on(
                     keeper.keep(session, stopped)
     except FaultError as error:
         if session.history.length:
-            error.result = made(scene, session, attrs, f"fault: {error}", whole=False)
+            error.result = made(scene, session, attrs, f"{FAULT}: {error}", whole=False)
         raise
     return concluded(scene, session, attrs, stopped)
 

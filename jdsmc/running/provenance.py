@@ -77,9 +77,9 @@ def specification(module: Any) -> Any:
     return module
 
 
-def run_name(scene: AbstractScene, options: Options, seed: int, records: int) -> str:
-    """A name that two results share only if they are the same run, as far as it came."""
-    text = json.dumps([specification(scene), repr(options), seed, records])
+def run_name(scene: AbstractScene, options: Options, seed: int) -> str:
+    """A name that results share only if they are of one run, however far it had come."""
+    text = json.dumps([specification(scene), repr(options), seed])
     return hashlib.blake2b(text.encode(), digest_size=12).hexdigest()
 
 

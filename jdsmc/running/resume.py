@@ -7,7 +7,7 @@ from ..derivatives.request import requested
 from ..results.result import Result
 from . import checkpoint
 from .checkpoint import EVERY, Keeper, Kept
-from .going import INTERRUPTED, concluded, go_on
+from .going import FAULT, INTERRUPTED, concluded, go_on
 from .limits import Limits
 from .run import options_of, scenes_of
 from .session import Session
@@ -51,13 +51,17 @@ def resume(
     under_way = source.under_way
     if under_way is None:
         raise ValueError(
-            "this result cannot go on: it was loaded, joined or cut, and holds no gas; resume the "
-            "checkpoint of its run, or run its scene again."
+            "this result cannot go on: it was loaded, joined, cut or copied, and holds no gas; "
+            "resume the checkpoint of its run, or run its scene again."
         )
     scene, session, attrs, length = under_way
     if session.history.length != length:
         raise ValueError("this result has been gone on from already; go on from the latest one.")
-    _ask(session, asked)
+    stopped = str(source.attrs["stopped"])
+    if not asked and not stopped.startswith((INTERRUPTED, FAULT)):
+        return concluded(scene, session, attrs, stopped)
+    if asked:
+        _ask(session, asked)
     return go_on(scene, session, attrs, progress)
 
 
@@ -86,12 +90,13 @@ def from_file(path: Path, kept: Kept, asked: dict, progress: bool, every: float)
 
 
 def _ask(session: Session, asked: dict) -> None:
-    """Give a session other limits: those given, and for the rest those it had."""
-    given: dict[str, Any] = session.limits.given | {
-        "duration": None,
-        "collisions": None,
-        "records": None,
-    }
+    """Give a session other limits: those given, and for the rest those it had.
+
+    A time that it had does not count beside a new time or precision.
+    """
+    given: dict[str, Any] = session.limits.given | {"records": None}
+    if set(asked) - {"budget"}:
+        given |= {"duration": None, "collisions": None}
     limits = Limits(session.history.scenes, session.options, **(given | asked))
     session.go_on(limits)
     if limits.fixed and session.progress() >= 1.0:

@@ -3,6 +3,9 @@
 from pathlib import Path
 from typing import Literal
 
+import jax
+import jax.core
+import jax.numpy as jnp
 import numpy as np
 
 from .. import check, sweep
@@ -14,12 +17,16 @@ from ..scenarios.options import Options
 from ..scenarios.rules import check_methods
 from ..types import Whole
 from .checkpoint import EVERY, Keeper
+from .devices import check_devices
 from .going import go_on
 from .limits import Limits
 from .session import Session
 
 LEAST_REALIZATIONS = 8
 """With four, Student's t decides nothing: a drift of three errors has a significance of 0.06."""
+
+MOST_REALIZATIONS = 2**20
+"""Each has its own keys on the host; more would fill its memory before anything is computed."""
 
 
 def run(
@@ -85,6 +92,7 @@ def run(
         FileExistsError: there is a file of the checkpoint's name.
     Ctrl-C, or SIGTERM, ends the run after the present chunk and returns what was measured.
     """
+    check.scalar("every", every, 0.0, np.inf, high_included=False)
     scenes = scenes_of(scene)
     along = duration is not None or collisions is not None
     request = None if sensitivity is False else requested(scene, scenes, sensitivity, along=along)
@@ -126,7 +134,17 @@ def scenes_of(scene) -> list[AbstractScene]:
         )
     if not isinstance(scene, AbstractScene):
         raise TypeError(f"scene must be one of jdsmc.scenarios or derive from them, got {scene!r}.")
+    _check_untraced(scene, jax.tree.leaves(scene))
     return sweep.points(scene)[0]
+
+
+def _check_untraced(scene: AbstractScene, numbers: list) -> None:
+    """Raise TypeError if any of these numbers is traced."""
+    if any(isinstance(one, jax.core.Tracer) for one in numbers):
+        raise TypeError(
+            f"{type(scene).__name__} cannot be run within jax.jit, grad or vmap: give arrays of "
+            "numbers for a sweep, and ask for derivatives by sensitivity."
+        )
 
 
 def options_of(scenes, n_particles, time_step, splitting, dtype, steps_per_record) -> Options:
@@ -162,9 +180,13 @@ def simulate(
     keeper: Keeper | None = None,
 ) -> Result:
     """Advance until a limit is met, and assemble what was measured; see `run`."""
-    n_realizations = check.whole("n_realizations", n_realizations, LEAST_REALIZATIONS)
+    n_realizations = check.size(
+        "n_realizations", n_realizations, LEAST_REALIZATIONS, MOST_REALIZATIONS
+    )
     seed = check.whole("seed", seed, 0)
     limits.check_warm_up()
+    check_devices()
+    _check_untraced(scene, [jnp.zeros(())])  # all is traced within a jitted function
     session = Session(scenes, n_realizations, seed, options, limits, request)
     attrs = {"seed": seed, "n_realizations": n_realizations}
     return go_on(scene, session, attrs, progress, keeper)

@@ -102,6 +102,8 @@ class AbstractScene(eqx.Module):
             )
         if not self.reports or not all(isinstance(one, Observable) for one in self.reports):
             raise TypeError(f"{name}.reports must hold at least one jdsmc.Observable.")
+        if not isinstance(self.monitored, tuple):
+            raise TypeError(f"{name}.monitored = {self.monitored!r} is no tuple of names.")
         check_fields(self)
 
     def __repr__(self) -> str:

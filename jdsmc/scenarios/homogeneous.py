@@ -8,7 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from .. import random
+from .. import check, random
 from ..collisions.bound import FASTEST_PAIR
 from ..collisions.meet import Collisions
 from ..collisions.pairs import remix
@@ -85,8 +85,10 @@ class BalancedRecord(HomogeneousRecord):
 
 
 def homogeneous_observables(*names: str) -> tuple[Observable, ...]:
-    """What every homogeneous gas reports, the named ones first."""
+    """What every homogeneous gas reports, the named ones first; ValueError for other names."""
     known = {one.name: one for one in (TEMPERATURE, *REDUCED)}
+    for name in names:
+        check.one_of("name", name, list(known))
     return tuple(known.pop(name) for name in names) + tuple(known.values())
 
 

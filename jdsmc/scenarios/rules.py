@@ -8,6 +8,8 @@ import numpy as np
 
 from .. import sweep
 from ..collisions.meet import Collisions
+from ..gases.rules import refuse_untraced
+from ..own_code import Code
 from ..types import Key
 from .base import AbstractScene, Record
 from .homogeneous import AbstractHomogeneous, HomogeneousState
@@ -29,7 +31,7 @@ def check_methods(scene: AbstractScene, options: Options) -> None:
     if type(scene).__module__.startswith(f"{OURS}.") or not scene.traced:
         return
     asked = _Asked(scene, options)
-    kind = jax.tree.structure(asked.scene), options
+    kind = jax.tree.structure(asked.scene), options, Code(scene)
     if kind in _GOOD:
         return
     state = asked.initial()
@@ -64,7 +66,11 @@ class _Asked:
         def traced(scene, key, *given):
             return method(scene, key, *given)
 
-        return eqx.filter_eval_shape(traced, self.scene, self.key, *arguments)
+        try:
+            return eqx.filter_eval_shape(traced, self.scene, self.key, *arguments)
+        except (jax.errors.JAXTypeError, ValueError) as error:
+            refuse_untraced(f"A method of {self.name}", error)
+            raise
 
     def initial(self) -> Any:
         """The state, of the kind that the class above goes by, if `advance` is from there."""

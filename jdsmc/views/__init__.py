@@ -57,8 +57,13 @@ def html(result) -> str:
 
 
 def draw(result):
-    """The matplotlib figure of a result; it belongs to no window and needs no closing."""
-    return _view(result).draw(result)
+    """The matplotlib figure of a result; it belongs to no window and needs no closing.
+
+    A sweep over one value is drawn as that point.
+    """
+    root = result.to_xarray()
+    single = {name: root[name].values[0] for name in result.dims if root.sizes[name] == 1}
+    return _view(result).draw(result.at(**single) if single else result)
 
 
 def sensitivity_table(found) -> str:

@@ -34,10 +34,12 @@ RATES = {
     "none": (lambda speed: None, TypeError, "Own.rate must return a real number"),
     "two": (lambda speed: (speed, speed), TypeError, "shape of its argument"),
     "text": (lambda speed: "fast", TypeError, "real number"),
-    "complex": (lambda speed: 1j * np.asarray(speed), TypeError, "real number"),
+    "complex": (lambda speed: 1j * np.ones(speed.shape), TypeError, "real number"),
     "negative": (lambda speed: -speed, ValueError, r"allowed range is \[0, inf\)"),
     "nan": (lambda speed: jnp.nan * speed, ValueError, "Own.rate gives nan"),
     "zero": (lambda speed: 0.0 * speed, ValueError, "no collisions"),
+    "an if": (lambda speed: 0.0 if speed > 1 else speed, TypeError, "Own.rate cannot be compiled"),
+    "of NumPy": (lambda speed: np.minimum(speed, np.sqrt(speed)), TypeError, "use jax.numpy"),
     "of others": (jnp.sum, ValueError, "beside others and alone"),
 }
 
@@ -52,6 +54,7 @@ def test_rate(case):
 
 TRANSFERS = {
     "none": (lambda g, e: None, TypeError, "must return 3 components"),
+    "of NumPy": (lambda g, e: (np.asarray(g[0]),) * 3, TypeError, "transfer cannot be compiled"),
     "two": (lambda g, e: transfer_of(g, e)[:2], TypeError, "must return 3 components"),
     "text": (lambda g, e: ("a", "b", "c"), TypeError, "real numbers each"),
     "shape": (lambda g, e: (jnp.ones(3),) * 3, TypeError, "shape"),

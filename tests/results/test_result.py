@@ -13,11 +13,11 @@ from jdsmc.results.result import Result
 from jdsmc.scenarios import UniformShear
 
 
-def simulate(restitution=0.7, gas=jdsmc.InelasticHardSpheres, **options):
+def simulate(restitution=0.7, gas=jdsmc.InelasticHardSpheres, shear_rate=4.0, **options):
     """A small run that is steady after a second; groups of four gases, compiled once."""
     steps = {"time_step": 0.1, "steps_per_record": 8}
     options = {"n_particles": 512, "n_realizations": 8, "rtol": 0.1} | steps | options
-    return jdsmc.run(UniformShear(gas(restitution), 4.0), progress=False, **options)
+    return jdsmc.run(UniformShear(gas(restitution), shear_rate), progress=False, **options)
 
 
 @pytest.fixture(scope="module")
@@ -106,6 +106,33 @@ def test_one_point_of_a_sweep(sweep):
         sweep.at(restitution=0.7)
     with pytest.raises(KeyError, match="shear_rate was not swept; swept: restitution"):
         sweep.at(shear_rate=4.0)
+
+
+def test_parts_are_parts_of_one_run():
+    """However a point is picked, nothing is left of its difference with itself; and what two of its
+    observables have in common is known.
+    """
+    whole = simulate([0.6, 0.8], shear_rate=[3.0, 4.0])
+    x, y = whole["pressure_xx"], whole["pressure_yy"]
+    there = {"restitution": 0.6, "shear_rate": 4.0}
+    parts = [whole.at(**there), whole.at(shear_rate=4.0).at(restitution=0.6)]
+    together = (x - y)[0, 1]
+    for part in parts:
+        assert (part["pressure_xx"] - x[0, 1]).error == 0.0 == (part["pressure_xx"] - x[0][1]).error
+        found = part["pressure_xx"] - y[0, 1]
+        assert (found.value, found.error) == pytest.approx((together.value, together.error))
+    row = whole.at(restitution=0.6)["pressure_xx"]
+    assert np.all((row - x[0]).error == 0.0) and (row[1] - parts[0]["pressure_xx"]).error == 0.0
+    assert (row[0] - row[1]).error == pytest.approx(np.hypot(*row.error))  # two gases
+
+
+def test_the_nearest_of_near_points():
+    close = simulate([0.7, 0.7 * (1 + 3e-7), 0.9], collisions=2.0)
+    for k, value in enumerate(close.steady["restitution"].values):
+        found = close.at(restitution=value).series["temperature"]
+        assert np.array_equal(found, close.series["temperature"][k])
+    with pytest.raises(KeyError, match="was not run"):
+        close.at(restitution=0.7001)
 
 
 def test_no_steady_values(transient):
@@ -254,6 +281,18 @@ def test_plots(steady, sweep, transient, tmp_path):
         assert all(panel.lines or panel.collections for panel in figure.axes)
         assert path.read_bytes().startswith(b"\x89PNG")
         plt.close(figure)
+
+
+def test_a_sweep_over_one_value_is_drawn(tmp_path):
+    """As that point: also beside a number with several values, and without steady values."""
+    for name, options in {
+        "one": {"restitution": [0.7]},
+        "both": {"restitution": [0.7], "shear_rate": [4.0]},
+        "beside": {"restitution": [0.7], "shear_rate": [3.0, 4.0]},
+        "short": {"restitution": [0.7], "collisions": 2.0},
+    }.items():
+        figure = simulate(**options).plot(tmp_path / f"{name}.png")
+        assert (tmp_path / f"{name}.png").exists() and figure.axes
 
 
 def test_table(steady, sweep):

@@ -1,5 +1,6 @@
 """Bad input is refused before anything is computed; what only looks odd works."""
 
+import jax
 import numpy as np
 import pytest
 
@@ -17,6 +18,8 @@ from .small import assert_same, scene, simulate
         ({"n_particles": 0}, "n_particles = 0"),
         ({"n_particles": 10}, "n_particles = 10"),
         ({"n_realizations": 7}, r"n_realizations = 7 .*\[8, inf\)"),
+        ({"n_realizations": 2**40}, r"n_realizations = 1099511627776 .*\[8, 2\^20\)"),
+        ({"every": 0.0}, r"every = 0 .*\(0, inf\)"),
         ({"seed": -1}, "seed = -1"),
         ({"seed": 2**64}, "seed = 18446744073709551616"),
         ({"duration": 0.0}, r"duration = 0 .*\(0, inf\)"),
@@ -47,6 +50,28 @@ def test_bad_options(options, words, monkeypatch):
 def test_options_of_a_wrong_type(name):
     with pytest.raises((TypeError, ValueError), match=name):
         simulate(**{name: "much"})
+
+
+def test_not_within_a_transformation():
+    """Told what to do instead: of a traced number, and of a run that is traced as a whole."""
+
+    def last(alpha):
+        return simulate(scene(alpha, 4.0), collisions=2.0).series["temperature"].values[-1]
+
+    for transformed in (jax.jit(last), jax.grad(last), jax.jit(lambda x: x * last(0.7))):
+        with pytest.raises(TypeError, match=r"cannot be run within jax.jit, grad or vmap: .*sweep"):
+            transformed(0.7)
+
+
+def test_float64_in_a_context():
+    """JAX's x64 mode of this thread is that of the threads of the run."""
+    with jax.enable_x64(True):
+        wide = simulate(collisions=2.0, dtype="float64")
+        again = simulate(collisions=2.0, dtype="float64")
+    assert_same(wide, again)
+    narrow = simulate(collisions=2.0)
+    first = [float(r.series["temperature"].values[1]) for r in (wide, narrow)]
+    assert first[0] == pytest.approx(first[1], rel=1e-3)  # the same gas, rounded otherwise
 
 
 @pytest.mark.parametrize("restitution, shear_rate", [(1.0, 4.0), (0.9, 0.0), ([0.9, 1.0], 4.0)])

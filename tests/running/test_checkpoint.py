@@ -220,3 +220,25 @@ def test_a_disk_that_is_full_ends_no_run(tmp_path, monkeypatch):
     with pytest.warns(UserWarning, match="No space left.*goes on"):
         result = jdsmc.run(SHEAR, collisions=4.0, checkpoint=tmp_path / "run.h5", **SMALL)
     assert "the asked time was simulated" in result.attrs["stopped"]
+
+
+def test_no_file_of_others_is_replaced(tmp_path):
+    """That of the name where the checkpoint before the last one will be, too."""
+    first = jdsmc.run(SHEAR, collisions=4.0, **SMALL)
+    kept = first.save(tmp_path / "run.previous.h5")
+    with pytest.raises(FileExistsError, match=r"run.previous.h5 exists, .*another name"):
+        jdsmc.run(SHEAR, collisions=4.0, checkpoint=tmp_path / "run.h5", **SMALL)
+    assert not differences(first, jdsmc.load(kept))
+
+
+def test_a_budget_alone_leaves_the_time_as_it_was(tmp_path, killed):
+    """ "What is not given is as it was"."""
+    path = tmp_path / "run.h5"
+    whole = jdsmc.run(SHEAR, collisions=12.0, **SMALL)
+    alive = killed(1)
+    with pytest.raises(Killed):
+        jdsmc.run(SHEAR, collisions=12.0, checkpoint=path, every=1e-9, **SMALL)
+    alive()
+    found = jdsmc.resume(path, budget=4000.0, progress=False)
+    assert found.attrs["stopped"] == whole.attrs["stopped"]
+    assert found.series.equals(whole.series)
