@@ -104,6 +104,15 @@ def size(name, value, low, most=MOST) -> int:
     return found
 
 
+def untraced(name, values) -> None:
+    """Raise TypeError if any of the values of what is to be run is traced."""
+    if any(isinstance(value, jax.core.Tracer) for value in values):
+        raise TypeError(
+            f"{name} cannot be run within jax.jit, grad or vmap: give arrays of numbers for a "
+            "sweep, and ask for derivatives by sensitivity."
+        )
+
+
 def one_of(name, value, choices):
     """Raise unless `value` is one of the named choices."""
     if not isinstance(value, str) or value not in choices:

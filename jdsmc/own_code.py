@@ -46,7 +46,7 @@ class _Walk:
     """One way through methods; what was met before is told by its number."""
 
     def __init__(self):
-        self._met: dict[int, Any] = {}
+        self._met: dict[int, tuple[int, Any]] = {}
 
     def module(self, module: Any) -> Hashable:
         """Classes of a scene and of its parts, and functions among its fields; no numbers."""
@@ -63,8 +63,8 @@ class _Walk:
         if isinstance(value, PLAIN):
             return type(value), value
         if id(value) in self._met:
-            return "again", list(self._met).index(id(value))
-        self._met[id(value)] = value  # held, so that no other takes its number
+            return "again", self._met[id(value)][0]
+        self._met[id(value)] = len(self._met), value  # held, so that no other takes its place
         if isinstance(value, np.ndarray | np.generic | jax.Array):
             array = np.asarray(value)
             return array.dtype.str, array.shape, array.tobytes()

@@ -1,8 +1,5 @@
 """What a gas of the user's own must return, asked on the host before anything is compiled."""
 
-from collections.abc import Callable
-from typing import Any
-
 import jax
 import jax.core
 import numpy as np
@@ -23,13 +20,15 @@ def check_rules(gas) -> None:
     traced = any(isinstance(leaf, jax.core.Tracer) for leaf in jax.tree.leaves(gas))
     if kind.__module__.startswith(f"{OURS}.") or traced:
         return
-    for one in sweep.points(gas)[0]:
+    points = sweep.points(gas)[0]
+    _check_compiles(points[0], kind.__name__)
+    for one in points:
         _check_rate(one, kind.__name__)
         _check_transfer(one, kind.__name__)
 
 
 def _check_rate(gas, name: str) -> None:
-    every, first = (_called(f"{name}.rate", gas.rate, x) for x in (PROBES, PROBES[:1]))
+    every, first = gas.rate(PROBES), gas.rate(PROBES[:1])
     rates = _numbers(f"{name}.rate must return a real number for each relative speed", every)
     if rates.shape not in {(), PROBES.shape}:
         raise TypeError(
@@ -54,9 +53,7 @@ def _check_rate(gas, name: str) -> None:
 
 
 def _check_transfer(gas, name: str) -> None:
-    none = (np.zeros_like(PROBES),) * (gas.dimension - 1)
-    relative, outgoing = (PROBES, *none), (0.6 * PROBES, 0.8 * PROBES, *none[1:])
-    found = _called(f"{name}.momentum_transfer", gas.momentum_transfer, relative, outgoing)
+    found = gas.momentum_transfer(*_pairs(gas.dimension))
     must = (
         f"{name}.momentum_transfer must return {gas.dimension} components, an array of real "
         "numbers each"
@@ -74,14 +71,21 @@ def _check_transfer(gas, name: str) -> None:
             )
 
 
-def _called(name: str, method: Callable, *arguments) -> Any:
-    """What a method returns; TypeError, which names it, for one that cannot be compiled."""
-    try:
-        jax.eval_shape(lambda *given: (method(*given), None)[1], *arguments)
-    except (jax.errors.JAXTypeError, ValueError) as error:
-        refuse_untraced(name, error)
-        raise
-    return method(*arguments)
+def _pairs(dimension: int) -> tuple[tuple, tuple]:
+    """Relative velocities of pairs, and those after an elastic collision."""
+    none = (np.zeros_like(PROBES),) * (dimension - 1)
+    return (PROBES, *none), (0.6 * PROBES, 0.8 * PROBES, *none[1:])
+
+
+def _check_compiles(gas, name: str) -> None:
+    """Trace the methods, of one point of a sweep: whether that can be done hangs on no number."""
+    rate, transfer = (gas.rate, (PROBES,)), (gas.momentum_transfer, _pairs(gas.dimension))
+    for called, (method, given) in {"rate": rate, "momentum_transfer": transfer}.items():
+        try:
+            jax.eval_shape(lambda *x, method=method: (method(*x), None)[1], *given)
+        except (jax.errors.JAXTypeError, ValueError) as error:
+            refuse_untraced(f"{name}.{called}", error)
+            raise
 
 
 def refuse_untraced(name: str, error: Exception) -> None:

@@ -58,7 +58,7 @@ def resume(
     if session.history.length != length:
         raise ValueError("this result has been gone on from already; go on from the latest one.")
     stopped = str(source.attrs["stopped"])
-    if not asked and not stopped.startswith((INTERRUPTED, FAULT)):
+    if _is_done(stopped, asked):
         return concluded(scene, session, attrs, stopped)
     if asked:
         _ask(session, asked)
@@ -81,12 +81,16 @@ def from_file(path: Path, kept: Kept, asked: dict, progress: bool, every: float)
     session = Session(points, chosen["n_realizations"], chosen["seed"], options, limits, request)
     kept.give(session)
     attrs = {name: chosen[name] for name in ("seed", "n_realizations")}
-    finished = kept.stopped and not kept.stopped.startswith(INTERRUPTED)
-    if finished and not asked:
+    if _is_done(kept.stopped, asked):
         return concluded(scene, session, attrs, kept.stopped)
     if asked:
         _ask(session, asked)
     return go_on(scene, session, attrs, progress, Keeper(path, every, scene, chosen, new=False))
+
+
+def _is_done(stopped: str, asked: dict) -> bool:
+    """True of a run that came to its end, if nothing more is asked of it."""
+    return bool(stopped) and not asked and not stopped.startswith((INTERRUPTED, FAULT))
 
 
 def _ask(session: Session, asked: dict) -> None:

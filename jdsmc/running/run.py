@@ -4,8 +4,6 @@ from pathlib import Path
 from typing import Literal
 
 import jax
-import jax.core
-import jax.numpy as jnp
 import numpy as np
 
 from .. import check, sweep
@@ -17,7 +15,6 @@ from ..scenarios.options import Options
 from ..scenarios.rules import check_methods
 from ..types import Whole
 from .checkpoint import EVERY, Keeper
-from .devices import check_devices
 from .going import go_on
 from .limits import Limits
 from .session import Session
@@ -61,7 +58,7 @@ def run(
             product, in one compiled program).
         n_particles: particles of one realization, at least 64, in a homogeneous gas a number with
             a divisor from 64 to 1024; by default what the scene says, mostly 5120.
-        n_realizations: independent realizations, at least 8; all error bars come from them.
+        n_realizations: independent realizations, from 8 to 2^20; all error bars come from them.
         seed: of all random numbers; the same seed gives the same result.
         duration: time to simulate (τ0).
         collisions: time to simulate, in accepted collisions per particle.
@@ -134,17 +131,8 @@ def scenes_of(scene) -> list[AbstractScene]:
         )
     if not isinstance(scene, AbstractScene):
         raise TypeError(f"scene must be one of jdsmc.scenarios or derive from them, got {scene!r}.")
-    _check_untraced(scene, jax.tree.leaves(scene))
+    check.untraced(type(scene).__name__, jax.tree.leaves(scene))
     return sweep.points(scene)[0]
-
-
-def _check_untraced(scene: AbstractScene, numbers: list) -> None:
-    """Raise TypeError if any of these numbers is traced."""
-    if any(isinstance(one, jax.core.Tracer) for one in numbers):
-        raise TypeError(
-            f"{type(scene).__name__} cannot be run within jax.jit, grad or vmap: give arrays of "
-            "numbers for a sweep, and ask for derivatives by sensitivity."
-        )
 
 
 def options_of(scenes, n_particles, time_step, splitting, dtype, steps_per_record) -> Options:
@@ -185,8 +173,6 @@ def simulate(
     )
     seed = check.whole("seed", seed, 0)
     limits.check_warm_up()
-    check_devices()
-    _check_untraced(scene, [jnp.zeros(())])  # all is traced within a jitted function
     session = Session(scenes, n_realizations, seed, options, limits, request)
     attrs = {"seed": seed, "n_realizations": n_realizations}
     return go_on(scene, session, attrs, progress, keeper)

@@ -2,8 +2,10 @@
 
 from collections.abc import Callable
 
+import jax.numpy as jnp
 import numpy as np
 
+from .. import check
 from ..derivatives.request import Request
 from ..derivatives.samples import Samples
 from ..errors import FaultError
@@ -45,6 +47,7 @@ class Session:
         sampler = None if request is None else request.sampler
         self.samples = None if sampler is None else Samples(sampler)
         check_devices()
+        check.untraced(type(scenes[0]).__name__, [jnp.zeros(())])  # within jit, all is traced
         keep_programs()
         self.gases = len(scenes) * n_realizations
         with room_for(self.gases, options):
