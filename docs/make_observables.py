@@ -39,7 +39,7 @@ NOTES = {
     "UniformShear": """\
 Equations: Astillero and Santos, *Uniform shear flow in dissipative gases* (2005): (2.18), (3.12)
 to (3.15), (4.15), (4.16), (4.19), (4.20) and section V C. `marginal_x` and `marginal_y` use both
-halves of (5.3): their norm is 1/2.""",
+halves of (5.3): their norm is 1/2. τ_η is that of hard spheres whatever the gas.""",
     "HomogeneousCooling": """\
 Steady values are those of the reduced distribution. Its series has the temperature against plain
 time (Haff's law) for as long as that is a number of float64; `log_temperature` goes on.""",
@@ -55,7 +55,8 @@ a layer in λ0, or a share of the length if that is swept. κ* stands on the loc
 κ ∝ T^ω, fitted over one λ0. `jdsmc.results.gravity_effect.at_equal_gradient(result)` takes κ*, g*
 and Δκ* at the paper's point z0 from a sweep over gravity. `marginal_z_lower`, `marginal_z_middle`
 and `marginal_z_upper` are densities of c_z = v_z over the thermal speed √(2T/m), T that of the
-wall, and halfway the one of linear T^{3/2}; their norms are n/n̄ there.""",
+wall, and halfway the one of linear T^{3/2}; their norms are n/n̄ there. q_NS and λ are those of hard
+spheres at T_+ whatever the gas: one that collides f times as often has κ* = 1/f.""",
     "CouetteFlow": """\
 Measured against published values in [couette_flow.md](couette_flow.md). `z` is the centre of a
 layer in λ0, or a share of the length if that is swept. Steady balances, exact:

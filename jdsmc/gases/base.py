@@ -13,7 +13,6 @@ from jaxtyping import Array
 
 from .. import sweep
 from ..fields import as_html, check_fields, plain_methods, text
-from ..units import INITIAL_TEMPERATURE
 from . import local
 from .rules import check_rules
 
@@ -135,7 +134,11 @@ def power_law(gas: AbstractGas) -> float:
     return exponent
 
 
+def energy_loss_rates(gas: AbstractGas) -> np.ndarray:
+    """Energy that one gas loses in collisions at temperatures of many decades."""
+    return np.array([float(gas.energy_loss_rate(t)) for t in local.TEMPERATURES])
+
+
 def conserves_energy(gas: AbstractGas) -> bool:
-    """True if no point of a swept gas loses energy in collisions."""
-    losses = [one.energy_loss_rate(INITIAL_TEMPERATURE) for one in sweep.points(gas)[0]]
-    return not np.any(np.asarray(losses) > 0)
+    """True if no point of a swept gas loses energy in collisions or makes any, however warm."""
+    return all(np.all(energy_loss_rates(one) == 0) for one in sweep.points(gas)[0])

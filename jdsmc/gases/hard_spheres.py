@@ -7,7 +7,7 @@ import numpy as np
 
 from ..fields import choice, number
 from ..units import COOLING, INITIAL_TEMPERATURE
-from .base import AbstractGas
+from .base import AbstractGas, energy_loss_rates
 
 MEAN_RATE = math.sqrt(2.0 / math.pi)
 """Collisions per particle and time of hard spheres over √T: eq. (3.11) of Astillero and Santos."""
@@ -163,6 +163,6 @@ def drag_loss_rate(gas: AbstractGas, temperature):
 
 
 def loses_energy(gas: AbstractGas) -> bool:
-    """True if one gas (not a sweep) cools when left alone, by collisions or drag."""
-    rates = gas.energy_loss_rate(INITIAL_TEMPERATURE), drag_loss_rate(gas, INITIAL_TEMPERATURE)
-    return bool(np.any(np.asarray(rates) > 0))
+    """True if one gas (not a sweep) cools at some temperature, by collisions or drag."""
+    drag = drag_loss_rate(gas, INITIAL_TEMPERATURE)
+    return bool(drag > 0 or np.any(energy_loss_rates(gas) > 0))

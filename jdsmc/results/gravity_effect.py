@@ -5,7 +5,8 @@ paths to the cold wall (half of all); ε0 is the reduced gradient there. For oth
 with the same ε0. Then Δκ*(ε0, g*) = κ*(ε0, g*) - κ*(ε0, 0), eq. (33).
 """
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -24,6 +25,10 @@ NAMES = {
     "kappa_star_change": "Δκ*",
 }
 
+LEVER, STEEP = 1.0, 5.0
+"""λ0 to either side of z0 between which slopes are taken; times its error that the slope of ε must
+be for z0 to have an error."""
+
 
 def at_equal_gradient(
     result: Result, window: float = conduction.WINDOW, gradient: float | None = None
@@ -35,8 +40,9 @@ def at_equal_gradient(
         window: width (λ0) of the window in which the temperature slope is fitted.
         gradient: ε0; by default the paper's rule.
     Returns: dataset over `gravity` of the quantities in `NAMES` and their standard errors, from a
-    jackknife over realizations of the whole rule, the choice of z0 included. NaN for a state where
-    no point has that ε0; its errors are NaN if that happens with one realization left out.
+    jackknife over realizations of the whole rule, the choice of z0 included, linear about z0. NaN
+    for a state where no point has that ε0; its errors are NaN if ε(z) is so flat there that its
+    slope is known no better than to a fifth.
     Raises ValueError for another sweep, or if no state has such a point.
     """
     found = points(result, window, gradient)
@@ -55,7 +61,8 @@ def points(
 
     Those of one result are correlated, with whatever window or gradient.
     """
-    found = _estimated(result, rule(result, window, gradient))
+    local = rule(result, window, gradient)
+    found = _estimated(result, local.at_points, local.flat)
     if not np.any(np.isfinite(found["z0"].value)):
         raise ValueError("no layer has the reduced gradient asked for; give another gradient.")
     return found
@@ -80,7 +87,7 @@ def linear_response(
     if np.sum(used) < 3:
         raise ValueError(f"fewer than three states have a known κ* and |g*| <= {largest:g}.")
     weight = 1.0 / np.asarray(error)[used]
-    local = rule(result, window, gradient)
+    local = rule(result, window, gradient).at_points
 
     def fitted(averages):
         found = local(averages)
@@ -98,9 +105,15 @@ def linear_response(
     return _estimated(result, fitted)
 
 
-def _estimated(result: Result, function) -> dict[str, Estimate]:
-    """A function of averages (gravity, ...) with its errors, realizations left out in turn."""
+def _estimated(result: Result, function, unknown=None) -> dict[str, Estimate]:
+    """A function of averages (gravity, ...) with its errors, realizations left out in turn.
+
+    `unknown`: values of gravity at which what is found has no error.
+    """
     value, error, left_out = jackknife(means(result), function, axis=1)
+    if unknown is not None:
+        error = {name: np.where(unknown, np.nan, x) for name, x in error.items()}
+        left_out = {name: np.where(unknown, np.nan, x) for name, x in left_out.items()}
     run = (result.attrs["run"], "all gravities")
     return {name: Estimate(value[name], error[name], {run: left_out[name]}) for name in value}
 
@@ -117,38 +130,79 @@ def means(result: Result) -> dict[str, np.ndarray]:
     return {name: data[name].transpose("gravity", "realization", ...).values for name in names}
 
 
-def rule(result: Result, window: float = conduction.WINDOW, gradient: float | None = None):
-    """The paper's rule: a function of averages (gravity, ...), to be put into a jackknife.
+class Rule(NamedTuple):
+    """`at_points`: averages (gravity, ...) to the quantities in `NAMES`, for a jackknife;
+    `flat`: states whose ε(z) does not tell where it takes a value."""
 
-    It returns a dict of the quantities in `NAMES`, for every value of gravity.
-    """
+    at_points: Callable[[dict], dict]
+    flat: np.ndarray
+
+
+def rule(result: Result, window: float = conduction.WINDOW, gradient: float | None = None) -> Rule:
+    """The paper's rule, for every value of gravity."""
     coords = result.to_xarray()["realizations"].to_dataset()
     gravity, z = coords["gravity"].values, coords["z"].values
     length = float(result.attrs["parameter_length"])
     scene: Any = result.scene()
     exponent = 1.0 - 0.5 * scene.gas.speed_exponent()
 
-    def at_points(averages: dict) -> dict:
+    def local(averages: dict) -> dict:
         profile = conduction.profiles(averages)
-        local = conduction.reduced(profile, gravity, length, exponent, window)
-        return _at_point(local, gravity, z, 0.5 * length, gradient)
+        return conduction.reduced(profile, gravity, length, exponent, window)
 
-    return at_points
-
-
-def _at_point(local: dict, gravity, z, half: float, gradient: float | None) -> dict:
-    """Everything at z0, for every value of gravity; `half` is 𝒩(z0) at g = 0."""
     free = int(np.argmin(np.abs(gravity)))
-    start = float(np.interp(half, local["mean_free_paths"][free], z))
-    wanted = np.interp(start, z, local["reduced_gradient"][free]) if gradient is None else gradient
-    points = [_crossing(z, one, wanted, start) for one in local["reduced_gradient"]]
+    return linearised(local, means(result), free, z, 0.5 * length, gradient)
 
-    def there(name):
-        return np.array([np.interp(p, z, one) for p, one in zip(points, local[name], strict=True)])
 
-    found = {name: there(name) for name in NAMES if name in local}
-    change = found["kappa_star"] - found["kappa_star"][free]
-    return {"z0": np.array(points), **found, "kappa_star_change": change}
+def linearised(
+    local: Callable[[dict], dict], averages: dict, free: int, z, half: float, gradient: float | None
+) -> Rule:
+    """The rule, linear about the points z0 of the averages over all realizations.
+
+    Arguments: `local`, averages (gravity, ...) to the profiles (gravity, z) of `NAMES`; averages
+    (gravity, realization, ...); the state without gravity; half of all mean free paths.
+
+    With d the change of ε(z0) - ε0 the point moves by -d over the slope of ε. That is taken over
+    2 `LEVER`: from one layer to the next it is mostly noise where ε(z) is flat, and the error of
+    z0 would be what that noise says (0.17 λ0 where three wider windows scatter by 0.3).
+    """
+
+    def wanted(found: dict) -> tuple[float, float]:
+        start = float(np.interp(half, found["mean_free_paths"][free], z))
+        there = np.interp(start, z, found["reduced_gradient"][free])
+        return start, float(there) if gradient is None else gradient
+
+    whole = local({name: np.mean(x, axis=1) for name, x in averages.items()})
+    start, value = wanted(whole)
+    points = np.array([_crossing(z, one, value, start) for one in whole["reduced_gradient"]])
+    names = [name for name in NAMES if name in whole]
+
+    def slopes(found: dict) -> dict[str, np.ndarray]:
+        low, high = (np.clip(points + x, z[0], z[-1]) for x in (-LEVER, LEVER))
+        return {n: (_at(high, z, found[n]) - _at(low, z, found[n])) / (high - low) for n in names}
+
+    slope = slopes(whole)
+    _, error, _ = jackknife(averages, lambda one: slopes(local(one)), axis=1)
+
+    def at_points(averages: dict) -> dict:
+        found = local(averages)
+        start, value = wanted(found)
+        shift = (value - _at(points, z, found["reduced_gradient"])) / slope["reduced_gradient"]
+        if gradient is None:
+            shift[free] = start - points[free]
+        there = {n: _at(points, z, found[n]) + slope[n] * shift for n in names}
+        there["reduced_gradient"] = np.where(np.isnan(points), np.nan, value)
+        change = there["kappa_star"] - there["kappa_star"][free]
+        return {"z0": points + shift, **there, "kappa_star_change": change}
+
+    steep = np.abs(slope["reduced_gradient"]) > STEEP * error["reduced_gradient"]
+    steep[free] |= gradient is None  # that point is where 𝒩 is half of all
+    return Rule(at_points, ~steep)
+
+
+def _at(points: np.ndarray, z, profiles: np.ndarray) -> np.ndarray:
+    """Each profile (gravity, z) at the point of its state."""
+    return np.array([np.interp(p, z, one) for p, one in zip(points, profiles, strict=True)])
 
 
 def _crossing(z, gradient, wanted: float, start: float) -> float:

@@ -46,5 +46,5 @@ def check_collisions(history, record) -> None:
         raise FaultError(
             f"Collision probabilities above one cost {excess:.1f} of {total:.0f} collisions: the "
             "fastest pairs outran the majorant; reduce time_step (none helps if a gas of your "
-            "own makes energy in collisions)."
+            "own makes energy in collisions, or collides ever faster at small speeds)."
         )

@@ -61,7 +61,8 @@ class SteadyTracker:
 
     Known slow time: measuring starts after LEAST of them, and more from afar. Unknown: the last
     half of the run so far is measured once it shows no drift against the quarter before it and
-    no correlation over a sixteenth of it; that sixteenth then is the slow time. From then on the
+    no correlation over a sixteenth of it; that sixteenth then is the slow time, unless the scene
+    knows a longer one. From then on the
     first quarter of the measurement is compared with the rest whenever it has grown by a quarter,
     and dropped if it differs. `settled` has the last word.
     """
@@ -120,7 +121,7 @@ class SteadyTracker:
         drift = self._significance(history, point, quarter, half, history.length)
         if drift > ACCEPT and self._decorrelated(history, point, half):
             self.start[point] = half
-            self.slow_time[point] = 0.5 * collisions / BLOCKS
+            self.slow_time[point] = max(self.slow_time[point], 0.5 * collisions / BLOCKS)
 
     def _grown(self, history: History, point: int, collisions: float) -> float:
         began = self._collisions_at(history, point, self.start[point])

@@ -22,6 +22,7 @@ from ..collisions.sampled import (
 from ..fields import derived
 from ..gases import AbstractGas
 from ..gases.base import pair_rate
+from ..gases.relaxation import relaxation
 from ..measure.linear_response import ORDER, Generator, coefficients, generator
 from ..measure.moments import moments
 from ..measure.observable import Observable
@@ -30,11 +31,11 @@ from ..measure.responses import OBSERVABLES
 from ..motion.drive import held_at
 from ..types import Key, Particles, Scalar, Velocity
 from ..units import INITIAL_TEMPERATURE
-from .approach import VELOCITIES, Approach
+from .approach import MEASURED, Approach, cooling_rate, of_velocities
 from .homogeneous import AbstractHomogeneous, HomogeneousRecord, HomogeneousState
 from .options import Options
 from .pace import make_steps
-from .scaled import check_without_drag, scaling_exponent
+from .scaled import check_without_drag, scaling_exponent, unsettled
 
 NAMES = ("modified_conductivity", "conductivity", "density_coefficient", "viscosity")
 COEFFICIENTS = tuple(next(one for one in OBSERVABLES if one.name == name) for name in NAMES)
@@ -81,8 +82,26 @@ class CoolingResponse(AbstractHomogeneous):
         return ("modified_conductivity", "conductivity", "viscosity")
 
     def approach(self, options: Options) -> Approach:
-        """A few collisions per particle."""
-        return VELOCITIES
+        """A few collisions per particle, or what the gas needs."""
+        return of_velocities(self.gas, 0)
+
+    def has_steady_state(self) -> bool:
+        """True if gradients have a response: if the fluxes that they drive are forgotten faster
+        than the gas cools."""
+        return not unsettled(self.gas, self.exponent, 1, 2) and not self._outlives()
+
+    def _outlives(self) -> bool:
+        """True if a heat flux decays more slowly than T: κ = .../(ν_κ - 2ζ) has no limit then."""
+        if isinstance(self.gas, MEASURED):
+            return False
+        cooling = cooling_rate(self.gas)
+        flux = relaxation(self.gas, INITIAL_TEMPERATURE, 1).slowest(cooling)
+        return flux <= 0.5 * cooling
+
+    def no_steady_state(self) -> str:
+        """Heat that outlives the gas."""
+        why = unsettled(self.gas, self.exponent, 1, 2)
+        return why or "a heat flux in this gas decays more slowly than its temperature"
 
     def step(
         self, key: Key, velocity: Velocity, majorant: Scalar, duration: Scalar, options: Options

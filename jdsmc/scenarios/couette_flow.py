@@ -15,7 +15,7 @@ import numpy as np
 
 from ..fields import number
 from ..gases import AbstractGas
-from ..gases.base import pair_rate
+from ..gases.base import conserves_energy, pair_rate
 from ..gases.hard_spheres import loses_energy
 from ..measure import couette
 from ..measure.observable import Observable
@@ -23,8 +23,8 @@ from ..motion.cells import totals
 from ..motion.flight import Exchange
 from ..motion.walls import Walls
 from ..types import Key, Profile, Scalar
-from .approach import Approach, of_couette_flow
-from .layers import thin_layers
+from .approach import Approach, of_couette_flow, own_length
+from .layers import local_mean_free_paths, thin_layers
 from .options import Options
 from .slab import SlabState
 from .walled import (
@@ -38,6 +38,13 @@ from .walled import (
     distance_of_walls,
     layers_between_walls,
 )
+
+CONDUCTED = 16.0 / (45.0 * np.pi)
+"""Share by which collisions across a layer of Δz raise the viscosity, over (Δz/λ)² (Alexander,
+Garcia and Alder, Phys. Fluids 10, 1540 (1998))."""
+
+TOO_WIDE = 0.01
+"""The same in the mean of all layers before a run remarks on it."""
 
 
 class Flow(eqx.Module):
@@ -109,7 +116,7 @@ class CouetteFlow(AbstractWalled):
 
     def __post_init__(self):
         if self.layers is None:
-            slab = self.cold_temperature, self.gravity, self.length
+            slab = self.gas, self.cold_temperature, self.gravity, self.length
             self.layers = thin_layers(*slab, jump=True, times=2)
 
     def ends(self) -> tuple[str, ...]:
@@ -124,8 +131,9 @@ class CouetteFlow(AbstractWalled):
 
     def approach(self, options: Options) -> Approach:
         """Diffusion of momentum and heat across the slab."""
+        motion = self.wall_velocity + abs(self.driven(own_length(self.gas)))
         found = of_couette_flow(
-            *(self.gas, self.cold_temperature, self.wall_velocity + abs(self.driven())),
+            *(self.gas, self.cold_temperature, motion),
             *(self.accommodation, self.length),
         )
         return found if self.gravity == 0 else found._replace(certain=False)
@@ -140,10 +148,13 @@ class CouetteFlow(AbstractWalled):
         none = Exchange.none(options.dtype)
         return WalledState(place, velocity, crowding, self.walls(), none)
 
-    def driven(self) -> Any:
-        """Velocity in the middle that the force drives, about: f L²/8 over η/n̄m, and the slip."""
+    def driven(self, own: Any = 1.0) -> Any:
+        """Velocity in the middle that the force drives, about: f L²/8 over η/n̄m, and the slip.
+
+        `own`: mean free paths of the gas in one λ0.
+        """
         slip = 1.1 * (2.0 - self.accommodation) / self.accommodation
-        return self.force * self.length * (self.length + 4.0 * slip) / 4.5
+        return self.force * self.length * (own * self.length + 4.0 * slip) / 4.5
 
     def move(self, key: Key, state: WalledState, duration: Scalar) -> WalledState:
         """Half of the push of the force, flight between the walls, half of the push."""
@@ -177,6 +188,23 @@ class CouetteFlow(AbstractWalled):
             self.conduction(state),
             totals(layer, vx, self.layers),
             totals(layer, vx * vz, self.layers),
+        )
+
+    def remarks(self, series: dict[str, np.ndarray], weights: np.ndarray) -> str:
+        """Layers that are too wide for the gas that is in them now."""
+        q = {name: np.mean(x, axis=0) for name, x in self.window(series, weights).items()}
+        found = couette.profiles(q)
+        known = found["density"] > 0
+        temperature = np.where(known, found["temperature"], 1.0)
+        paths = found["density"] * local_mean_free_paths(self.gas, temperature)
+        width = float(self.length) / self.layers * paths
+        excess = float(np.mean(CONDUCTED * width**2))
+        if excess <= TOO_WIDE:
+            return ""
+        return (
+            f"Layers up to {np.max(width):.2g} mean free paths wide conduct momentum "
+            f"{100 * excess:.2g}% too well; take at least "
+            f"{int(np.ceil(self.layers * np.sqrt(excess / TOO_WIDE)))} layers for {TOO_WIDE:.0%}."
         )
 
     def averages(self, record: WalledRecord) -> dict[str, np.ndarray]:
@@ -213,7 +241,7 @@ class CouetteFlow(AbstractWalled):
         """Profiles, and what the walls tell."""
         found = couette.profiles(means)
         lost = means["energy_lost"]
-        lost = lost if loses_energy(self.gas) else np.zeros_like(lost)  # not roundings
+        lost = np.zeros_like(lost) if conserves_energy(self.gas) else lost  # not roundings
         whole = {one.name: means[one.name] for one in couette.OBSERVABLES if one.name in means}
         return {
             **whole,

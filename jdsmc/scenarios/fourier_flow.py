@@ -81,7 +81,7 @@ class FourierFlow(AbstractWalled):
 
     def __post_init__(self):
         if self.layers is None:
-            slab = self.cold_temperature, self.gravity, self.length
+            slab = self.gas, self.cold_temperature, self.gravity, self.length
             self.layers = thin_layers(*slab, jump=str(self.wall) == "maxwell")
 
     def __check_init__(self):
@@ -102,7 +102,7 @@ class FourierFlow(AbstractWalled):
 
     def approach(self, options: Options) -> Approach:
         """Diffusion of heat across the slab."""
-        return of_conduction(self.cold_temperature, self.gravity, self.length)
+        return of_conduction(self.gas, self.cold_temperature, self.gravity, self.length)
 
     def initial(self, key: Key, options: Options) -> WalledState:
         """Local equilibrium with n ∝ 1/T and T^{3/2} linear between the walls: eq. (31)."""

@@ -42,7 +42,13 @@ from .homogeneous import (
 )
 from .options import Options
 from .pace import make_steps
-from .scaled import check_without_drag, scaling_exponent, slowed_rates
+from .scaled import (
+    check_without_drag,
+    scaling_exponent,
+    slowed_rates,
+    tail_remark,
+    unsettled,
+)
 
 
 class HeatRecord(HomogeneousRecord):
@@ -108,11 +114,13 @@ class HeatFluxForce(AbstractHomogeneous):
         return True
 
     def has_steady_state(self) -> bool:
-        """True if there is a heat flux to be measured."""
-        return bool(self.field > 0)
+        """True if there is a heat flux to be measured, and the gas answers to a force."""
+        return bool(self.field > 0) and not unsettled(self.gas, self.exponent, 1)
 
     def no_steady_state(self) -> str:
         """Without a field all responses are 0/0."""
+        if self.field > 0:
+            return f"{unsettled(self.gas, self.exponent, 1)}; give duration or collisions"
         return (
             "field = 0 drives no heat flux to be measured; give field > 0, or duration or "
             "collisions"
@@ -120,7 +128,7 @@ class HeatFluxForce(AbstractHomogeneous):
 
     def approach(self, options: Options) -> Approach:
         """A few collisions per particle in a weak field."""
-        return of_heat_flux_force(self.field)
+        return of_heat_flux_force(self.gas, self.field)
 
     def flow(self, velocity: Velocity, duration: Scalar) -> tuple[Velocity, Scalar]:
         """V/(1 + ½ ε V_x t), the exact flow of -½ V (V·ε), then mean velocity zero.
@@ -206,17 +214,9 @@ class HeatFluxForce(AbstractHomogeneous):
 
     def remarks(self, series: dict[str, np.ndarray], weights: np.ndarray) -> str:
         """Which averages hang on particles so rare that their scatter does not tell their error."""
-        exponent = self.tail_exponent()
-        highest = exponent / MOMENTS_OF_ERROR
-        doubted = [name for name, order in ORDERS.items() if order > highest]
-        if not doubted:
-            return ""
-        return (
-            f"field = {float(self.field):g} stretches the tail of fast particles to a power law "
-            f"of exponent {exponent:.0f}: averages of more than "
-            f"{highest:.1f} powers of the speed hang on rare particles, and the errors of "
-            f"{', '.join(doubted)} may be too small. Take a smaller field for them."
-        )
+        cause = f"field = {float(self.field):g} stretches the tail of fast particles to"
+        found = tail_remark(self.tail_exponent(), ORDERS, cause)
+        return found and f"{found} Take a smaller field for them."
 
     def averages(self, record: HeatRecord) -> dict[str, np.ndarray]:
         """Averages over the particles at each record, odd ones included."""
@@ -243,7 +243,3 @@ RUNAWAY = 0.3
 
 ORDERS = {"modified_conductivity": 3, "a2": 4, "b'_2": 5, "a3": 6, "b'_3": 7}
 """Powers of the speed in what is reported."""
-
-MOMENTS_OF_ERROR = 4
-"""The error bar of an average of order n needs a moment of order 4n. Seen at ε* = 0.1, an exponent
-of 14: scores of κ' have ⟨z²⟩ = 1.4, as eight realizations should, a2 1.6 and a3 2.6."""

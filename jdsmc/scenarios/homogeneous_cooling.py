@@ -13,6 +13,7 @@ import numpy as np
 from ..collisions.meet import Collisions
 from ..fields import derived
 from ..gases import AbstractGas
+from ..gases.relaxation import tail_exponent
 from ..measure.moments import moments
 from ..measure.observable import Observable
 from ..measure.observables import REDUCED, TEMPERATURE
@@ -20,7 +21,7 @@ from ..measure.polynomials import ISOTROPIC, Symmetry
 from ..motion.drive import centred, temperature_of
 from ..types import Key, Scalar, Velocity
 from ..units import INITIAL_TEMPERATURE
-from .approach import UNKNOWN, VELOCITIES, Approach
+from .approach import Approach, of_velocities
 from .homogeneous import AbstractHomogeneous, HomogeneousRecord, HomogeneousState
 from .options import Options
 from .pace import make_steps
@@ -30,6 +31,8 @@ from .scaled import (
     scaled_to_start,
     scaling_exponent,
     slowed_rates,
+    tail_remark,
+    unsettled,
 )
 
 
@@ -75,20 +78,26 @@ class HomogeneousCooling(AbstractHomogeneous):
         return super().fit_options(options)
 
     def has_steady_state(self) -> bool:
-        """True if the reduced distribution becomes steady: for a gas without a speed of its own."""
-        return self.exponent is not None
+        """True if the reduced distribution becomes steady: for a gas without a speed of its own,
+        and without a tail so heavy that a2 means nothing."""
+        return not unsettled(self.gas, self.exponent)
 
     def holds_temperature(self) -> bool:
         """True if the gas is scaled back to T0."""
         return self.exponent is not None
 
     def no_steady_state(self) -> str:
-        """A gas with a speed of its own changes for ever."""
-        return "its gas has a speed of its own, so that it changes for ever; give duration"
+        """A gas with a speed of its own changes for ever; others have no averages to be steady."""
+        return f"{unsettled(self.gas, self.exponent)}; give duration"
 
     def approach(self, options: Options) -> Approach:
-        """A few collisions per particle."""
-        return UNKNOWN if self.exponent is None else VELOCITIES
+        """A few collisions per particle, or what the gas needs."""
+        return of_velocities(self.gas, 0)
+
+    def remarks(self, series: dict[str, np.ndarray], weights: np.ndarray) -> str:
+        """Averages of a distribution that falls as a power law."""
+        exponent = np.inf if self.exponent is None else tail_exponent(self.gas, self.exponent)
+        return tail_remark(exponent, {"a2": 4, "a3": 6}, "The reduced distribution falls as")
 
     def step(
         self, key: Key, velocity: Velocity, majorant: Scalar, duration: Scalar, options: Options

@@ -1,8 +1,15 @@
 """How many layers a slab needs: none much wider than a mean free path of the gas in it."""
 
+import jax
+import jax.core
 import numpy as np
 
-from .. import check
+from .. import check, sweep
+from ..gases import AbstractGas
+from ..gases.base import check_gas
+from ..gases.relaxation import mean_free_paths
+from ..units import INITIAL_TEMPERATURE
+from .kinetic_model import HardSpheres
 
 WIDEST = 0.5
 """Widest layer between walls, in mean free paths at the densest place. A layer of Δz conducts
@@ -20,18 +27,45 @@ JUMP = 2.127
 """Temperature jump at a wall over λ dT/dz (hard spheres, Maxwell walls)."""
 
 
-def thin_layers(cold_temperature, gravity, length, *, jump: bool, times: int = 1) -> int:
+def thin_layers(gas, cold_temperature, gravity, length, *, jump: bool, times: int = 1) -> int:
     """Layers at most `WIDEST` mean free paths wide, or so many times thinner; as `common_layers`.
 
     `jump`: whether the gas at a wall is warmer than the wall.
     """
+    check_gas(gas)
     slab = [np.ravel(check.physical(number)) for number in (cold_temperature, gravity, length)]
     if any(values.dtype.kind != "f" or not np.all(np.isfinite(values)) for values in slab):
         return FEWEST  # refused with its name when the scene checks its fields
     cold, gravity, length = np.broadcast_arrays(*np.ix_(*slab))
     length, gravity = np.clip(length, 1e-6, 1e3), np.clip(gravity, -1.0, 1.0)
-    wanted = length * densest(np.clip(cold, 1e-6, 1.0), gravity, length, jump) / WIDEST
-    return common_layers(np.maximum(FEWEST, times * wanted))
+    cold = np.clip(cold, 1e-6, 1.0)
+    wanted = length * densest(cold, gravity, length, jump) / WIDEST
+    own = own_mean_free_paths(gas, np.unique(cold))
+    return common_layers(np.maximum(FEWEST, times * np.multiply.outer(own, wanted)))
+
+
+def own_mean_free_paths(gas, temperatures) -> np.ndarray:
+    """Mean free paths of each point of a gas in one λ0, at T0 or one of these (T0) if more.
+
+    1 for hard spheres, whose layers these rules are made for.
+    """
+    traced = any(isinstance(leaf, jax.core.Tracer) for leaf in jax.tree.leaves(gas))
+    if isinstance(gas, HardSpheres) or not isinstance(gas, AbstractGas) or traced:
+        return np.ones(1)
+    asked = INITIAL_TEMPERATURE * np.unique([*np.ravel(temperatures), 1.0])
+    points = sweep.points(gas)[0]
+    return np.array([max(mean_free_paths(one, t) for t in asked) for one in points])
+
+
+def local_mean_free_paths(gas, temperature: np.ndarray) -> np.ndarray:
+    """Mean free paths of one gas in one λ0 at temperatures over T0, as a power law between them."""
+    if isinstance(gas, HardSpheres):
+        return np.ones_like(temperature)
+    ends = np.log(np.clip([np.min(temperature), np.max(temperature)], 1e-6, 1e6))
+    ends[1] = max(ends[1], ends[0] + 1e-3)
+    paths = [mean_free_paths(gas, INITIAL_TEMPERATURE * np.exp(one)) for one in ends]
+    known = np.log(np.maximum(paths, 1e-300))
+    return np.exp(np.interp(np.log(np.maximum(temperature, 1e-6)), ends, known))
 
 
 def common_layers(wanted) -> int:

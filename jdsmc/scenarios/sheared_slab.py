@@ -19,7 +19,7 @@ from ..collisions.bound import FASTEST_PAIR
 from ..collisions.meet import Collisions
 from ..fields import choice, count, number
 from ..gases import AbstractGas, ElasticHardSpheres
-from ..gases.base import pair_rate
+from ..gases.base import check_gas, pair_rate
 from ..gases.hard_spheres import loses_energy
 from ..measure.distributions import DISTRIBUTIONS, Distributions, bin_centres, over_slab
 from ..measure.observable import Observable
@@ -34,7 +34,7 @@ from ..units import INITIAL_TEMPERATURE
 from .approach import Approach, of_sheared_slab
 from .base import Record
 from .kinetic_model import check_start, sheared
-from .layers import common_layers
+from .layers import common_layers, own_mean_free_paths
 from .options import Options
 from .slab import AbstractSlab, SlabState, uniform
 
@@ -133,7 +133,9 @@ class ShearedSlab(AbstractSlab):
             lengths = np.ravel(check.physical(self.length))
             known = lengths.dtype.kind == "f" and np.all(np.isfinite(lengths))  # else refused soon
             wanted = np.clip(lengths, 0.0, 1e3) / WIDEST if known else FEWEST
-            self.layers = common_layers(np.maximum(FEWEST, wanted))
+            check_gas(self.gas)
+            own = own_mean_free_paths(self.gas, 1.0)
+            self.layers = common_layers(np.maximum(FEWEST, np.multiply.outer(own, wanted)))
 
     def __check_init__(self):
         if isinstance(self.gas, ElasticHardSpheres) and self.gas.drag == "measured":

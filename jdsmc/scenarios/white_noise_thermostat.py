@@ -21,7 +21,7 @@ from ..gases.hard_spheres import loses_energy
 from ..measure.observable import Observable
 from ..types import Key, Scalar, Velocity
 from ..units import INITIAL_TEMPERATURE
-from .approach import VELOCITIES, Approach
+from .approach import Approach, of_velocities
 from .homogeneous import AbstractHomogeneous, homogeneous_observables
 from .options import Options
 
@@ -83,6 +83,7 @@ class WhiteNoiseThermostat(AbstractHomogeneous):
         From a hotter start T falls with ζ of its own, which is as many collisions: p ln(T0/T_s).
         """
         heating, dimension = float(self.noise), self.gas.dimension
+        velocities = of_velocities(self.gas, 0, fed=True)
 
         def excess(log_temperature: float) -> float:
             loss = 2.0 / dimension * float(self.gas.energy_loss_rate(np.exp(log_temperature)))
@@ -90,10 +91,11 @@ class WhiteNoiseThermostat(AbstractHomogeneous):
 
         low, high = -60.0, 60.0
         if excess(low) > 0.0 or excess(high) < 0.0:
-            return VELOCITIES._replace(certain=False)
+            return velocities._replace(certain=False)
         steady = float(scipy.optimize.brentq(excess, low, high, xtol=1e-6))
         power = (excess(steady + 0.01) - excess(steady - 0.01)) / 0.02
         temperature = np.exp(steady)
         slow = float(self.gas.collision_rate(temperature)) * temperature / (power * heating)
         hotter = np.log(INITIAL_TEMPERATURE) - steady
-        return Approach(max(VELOCITIES.collisions, slow), power * max(0.0, hotter))
+        distance = power * max(0.0, hotter)
+        return Approach(max(velocities.collisions, slow), distance, velocities.certain)

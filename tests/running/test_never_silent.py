@@ -80,10 +80,10 @@ def test_type_two_walls_of_one_temperature():
 def test_layers_are_as_thin_as_the_gas_needs():
     """Half of a mean free path where it is densest, for every point of a sweep; or as asked."""
     for slab in ((1.0, 0.0, 10.0), (0.25, 0.0, 10.0), (0.05, 0.0, 1000.0), (0.05, 0.01, 10.0)):
-        layers = thin_layers(*slab, jump=False)
+        layers = thin_layers(ELASTIC, *slab, jump=False)
         needed = 2 * slab[2] * densest(*slab, False)
         assert needed <= layers <= max(100, 2 * needed)
-        assert 2 * needed <= thin_layers(*slab, jump=False, times=2) <= 2 * layers
+        assert 2 * needed <= thin_layers(ELASTIC, *slab, jump=False, times=2) <= 2 * layers
     assert FourierFlow(ELASTIC, 0.05, layers=7).layers == 7
     # a simulation at T_- = 0.05, L = 10 has 3.9 in the first of 88 layers
     assert float(densest(0.05, 0.0, 10.0, True)) == pytest.approx(3.9, rel=0.25)
