@@ -151,6 +151,9 @@ class Estimate:
     def __pow__(self, power) -> "Estimate":
         return combine(np.power, self, power)
 
+    def __rpow__(self, base) -> "Estimate":
+        return combine(np.power, base, self)
+
     def __neg__(self) -> "Estimate":
         return combine(np.negative, self)
 
@@ -201,6 +204,10 @@ class Estimate:
 
     def __repr__(self) -> str:
         return f"Estimate({self})"
+
+    def __format__(self, form: str) -> str:
+        """As `str`; by a format of numbers, `f"{estimate:.3f}"`, value ± error in that format."""
+        return f"{self.value:{form}} ± {self.error:{form}}" if form else str(self)
 
     def __str__(self) -> str:
         if np.ndim(self.value):

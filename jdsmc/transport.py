@@ -15,7 +15,7 @@ import xarray as xr
 from . import check
 from .results.result import Result
 from .running import checkpoint as checkpoints
-from .running.checkpoint import EVERY, Keeper
+from .running.checkpoint import EVERY, Keeper, check_every
 from .running.limits import Limits
 from .running.resume import from_file
 from .running.run import options_of, run, scenes_of, simulate
@@ -89,6 +89,7 @@ def navier_stokes(
     options = options_of(scenes, **numerics)
     limits = Limits(scenes, options, rtol=rtol or 1e-9, budget=1e12, records=kicks)
     chosen = numerics | {"n_realizations": n_realizations, "seed": seed, "sensitivity": False}
+    check_every(every)
     keeper = None if checkpoint is None else Keeper(checkpoint, every, scene, chosen, new=True)
     return with_lag_as_series(
         simulate(

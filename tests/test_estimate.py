@@ -149,6 +149,14 @@ def test_windows_that_do_not_match():
         a - short
 
 
+def test_powers():
+    """d(x^p) = p x^{p-1} dx and d(b^x) = b^x ln b dx, of small errors."""
+    x = Estimate(1.5, 1e-6)
+    assert (x**3).error == pytest.approx(3 * 1.5**2 * 1e-6, rel=1e-5)
+    assert (2**x).value == pytest.approx(2**1.5)
+    assert (2**x).error == pytest.approx(2**1.5 * np.log(2.0) * 1e-6, rel=1e-5)
+
+
 def test_distance():
     """In standard errors, from a number or from another estimate."""
     assert Estimate(1.3, 0.1).distance(1.0) == pytest.approx(3.0, rel=1e-9)
@@ -193,6 +201,8 @@ def test_taken_apart_and_shown():
     value, error = Estimate(0.33251, 0.00042)
     assert (value, error) == (0.33251, 0.00042)
     assert float(Estimate(0.5, 0.1)) == 0.5
+    assert f"{Estimate(0.33251, 0.00042):.3f}" == "0.333 ± 0.000"
+    assert f"{Estimate(0.33251, 0.00042)}" == "0.33251(42)"
     assert repr(Estimate(0.33251, 0.00042)) == "Estimate(0.33251(42))"
     assert str(Estimate(np.array([1.0, 2.0]), np.array([0.1, 0.2]))) == "1.00(10)\n2.00(20)"
 

@@ -18,7 +18,7 @@ def columns(tree: xr.DataTree, dims: tuple[str, ...], along: str = "") -> dict[s
     Arguments: a tree as of `Result.to_xarray`; the swept dimensions; `along`, "" for steady values,
     one row for each point of the sweep, or the name of a dimension, one row for each point and
     place along it ("sample" for time series).
-    Raises KeyError for a dimension that is not there.
+    Raises KeyError for a dimension that is not there, and for steady values of a run without any.
     """
     data = _group(tree, dims, along)
     rows = (*dims, along) if along else dims
@@ -46,6 +46,11 @@ def _group(tree: xr.DataTree, dims: tuple[str, ...], along: str) -> xr.Dataset:
     found = {
         name: tree[f"/{name}"].to_dataset() for name in GROUPS if not name or name in tree.children
     }
+    if not along and not found[""].data_vars:
+        raise KeyError(
+            f"no steady values: {tree.attrs.get('stopped', 'the run was not steady')}. "
+            'Give "sample" for time series.'
+        )
     if not along:
         return found[""]
     there = {str(d): data for data in reversed(found.values()) for d in data.dims if d not in dims}

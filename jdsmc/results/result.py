@@ -194,7 +194,7 @@ class Result:
 
         `along` is "" for steady values, one row for each point of the sweep; or a dimension, one
         row for each point and place on it: "sample" for time series, "z", "velocity", ... Raises
-        KeyError for one that is not there.
+        KeyError for one that is not there, and for steady values of a run that was not steady.
         """
         return pd.DataFrame(columns(self._tree, self.dims, along))
 

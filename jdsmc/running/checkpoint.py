@@ -32,6 +32,11 @@ SHARE = 0.01
 KIND, SCHEMA = "jdsmc checkpoint", 1
 
 
+def check_every(every) -> None:
+    """Raise TypeError or ValueError for what is no number of seconds above zero."""
+    check.scalar("every", every, 0.0, np.inf, high_included=False)
+
+
 class Keeper:
     """Writes a session to a file, which is its own in a `with` block: in time, and at the end.
 
@@ -42,7 +47,7 @@ class Keeper:
     """
 
     def __init__(self, path: str | Path, every, scene: AbstractScene, chosen: dict, *, new: bool):
-        check.scalar("every", every, 0.0, np.inf, high_included=False)
+        check_every(every)
         self.path = check.path("checkpoint", path)
         check_writable(self.path, overwrite=True)
         if new and hosts.is_first() and self.path.exists():

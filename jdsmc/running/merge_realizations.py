@@ -18,7 +18,8 @@ ALONG = {"averages": "realization", "blocks": "part", "realizations": "realizati
 
 
 def more_realizations(results: list[Result], classes: tuple[type, ...]) -> Result:
-    """All of them together; ValueError for a seed that comes twice, and if only some are steady."""
+    """All of them together; ValueError for a seed that comes twice, and if only some are steady or
+    have derivatives."""
     seeds = [int(seed) for one in results for seed in np.atleast_1d(one.attrs["seed"])]
     if len(set(seeds)) < len(seeds):
         twice = next(seed for seed in seeds if seeds.count(seed) > 1)
@@ -27,6 +28,8 @@ def more_realizations(results: list[Result], classes: tuple[type, ...]) -> Resul
         )
     if len({one.is_steady for one in results}) > 1:
         raise ValueError("some of these runs were steady and others not; merge the steady ones.")
+    if len({"sensitivity" in one.to_xarray().children for one in results}) > 1:
+        raise ValueError("some of these runs have derivatives and others not; merge their like.")
     counts = np.array([int(one.attrs["n_realizations"]) for one in results])
     trees = [one.to_xarray() for one in results]
     shared = set.intersection(*(set(tree.children) for tree in trees))

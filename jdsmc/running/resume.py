@@ -6,7 +6,7 @@ from typing import Any
 from ..derivatives.request import requested
 from ..results.result import Result
 from . import checkpoint
-from .checkpoint import EVERY, Keeper, Kept
+from .checkpoint import EVERY, Keeper, Kept, check_every
 from .going import FAULT, INTERRUPTED, concluded, go_on
 from .limits import Limits
 from .run import options_of, scenes_of
@@ -41,6 +41,7 @@ def resume(
         was changed; FileNotFoundError; else as `run`.
     A warning says so if another processor or other versions go on, with other roundings.
     """
+    check_every(every)
     limits = {"duration": duration, "collisions": collisions, "observable": observable}
     asked = {
         name: x for name, x in {**limits, "rtol": rtol, "budget": budget}.items() if x is not None

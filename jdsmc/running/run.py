@@ -14,7 +14,7 @@ from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
 from ..scenarios.rules import check_methods
 from ..types import Whole
-from .checkpoint import EVERY, Keeper
+from .checkpoint import EVERY, Keeper, check_every
 from .going import go_on
 from .limits import Limits
 from .session import Session
@@ -89,7 +89,7 @@ def run(
         FileExistsError: there is a file of the checkpoint's name.
     Ctrl-C, or SIGTERM, ends the run after the present chunk and returns what was measured.
     """
-    check.scalar("every", every, 0.0, np.inf, high_included=False)
+    check_every(every)
     scenes = scenes_of(scene)
     along = duration is not None or collisions is not None
     request = None if sensitivity is False else requested(scene, scenes, sensitivity, along=along)

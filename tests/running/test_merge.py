@@ -121,6 +121,8 @@ def test_transients_are_averaged():
     runs = [shear(0.6, seed=k, collisions=3.0) for k in (1, 2)]
     merged = jdsmc.merge(runs)
     assert not merged.is_steady
+    with pytest.raises(KeyError, match=r"no steady values.*sample"):
+        merged.to_dataframe()
     ours, its = merged.series, [one.series for one in runs]
     count = ours.sizes["sample"]
     mean = 0.5 * sum(one["temperature"].values[:count] for one in its)
@@ -141,6 +143,7 @@ def test_what_does_not_belong_together(seeds, sweep):
         ([seeds[0], sweep.at(restitution=0.5)], "part of a sweep"),
         ([seeds[0], shear(0.6, seed=4, collisions=2.0)], "others not"),
         ([seeds[0], shear(0.7, n_realizations=16)], "n_realizations"),
+        ([seeds[0], shear(0.6, seed=4, sensitivity=True)], "have derivatives and others not"),
     ):
         with pytest.raises(ValueError, match=words):
             jdsmc.merge(results)

@@ -78,6 +78,8 @@ def test_what_cannot_go_on_says_so(tmp_path):
     first = shear(collisions=5.0)
     with pytest.raises(ValueError, match="reached already"):
         jdsmc.resume(first, collisions=2.0, progress=False)
+    with pytest.raises(ValueError, match=r"every = -1 .*\(0, inf\)"):
+        jdsmc.resume(first, collisions=8.0, every=-1.0, progress=False)
     jdsmc.resume(first, collisions=8.0, progress=False)
     with pytest.raises(ValueError, match="gone on from already"):
         jdsmc.resume(first, collisions=10.0, progress=False)
