@@ -21,9 +21,9 @@ one collision in 1e4: a share of 1e-6, counted as `Collisions.excess`; the limit
 
 
 def next_majorant(reduced: Scalar, majorant: Scalar, tally: Collisions) -> Scalar:
-    """The majorant over v0(T) of the next step: raised if a pair was faster, else lowered.
+    """The reduced majorant of the next step: raised if a pair was faster, else lowered.
 
-    Arguments: the present one, over v0(T) and in v0, and what the step's collisions told.
+    Arguments: the present one, reduced and in v0, and what the step's collisions told.
     """
     return next_bound(reduced, tally.fastest * (reduced / majorant))
 

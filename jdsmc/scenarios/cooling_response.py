@@ -119,7 +119,7 @@ class CoolingResponse(AbstractHomogeneous):
             return velocity, tally, None
 
         velocity, majorant, tally, elapsed, _ = make_steps(
-            *(step, key, velocity, state.majorant),
+            *(step, self.gas, key, velocity, state.majorant),
             *(sampled.temperature(), self.rate(), options),
         )
         whole = jnp.zeros_like(elapsed), jnp.ones(2, elapsed.dtype)

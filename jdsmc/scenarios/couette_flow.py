@@ -24,7 +24,7 @@ from ..motion.flight import Exchange
 from ..motion.walls import Walls
 from ..types import Key, Profile, Scalar
 from .approach import Approach, of_couette_flow, own_length
-from .layers import local_mean_free_paths, thin_layers
+from .layers import remark_on_layers, thin_layers
 from .options import Options
 from .slab import SlabState
 from .walled import (
@@ -38,13 +38,6 @@ from .walled import (
     distance_of_walls,
     layers_between_walls,
 )
-
-CONDUCTED = 16.0 / (45.0 * np.pi)
-"""Share by which collisions across a layer of Δz raise the viscosity, over (Δz/λ)² (Alexander,
-Garcia and Alder, Phys. Fluids 10, 1540 (1998))."""
-
-TOO_WIDE = 0.01
-"""The same in the mean of all layers before a run remarks on it."""
 
 
 class Flow(eqx.Module):
@@ -194,18 +187,8 @@ class CouetteFlow(AbstractWalled):
         """Layers that are too wide for the gas that is in them now."""
         q = {name: np.mean(x, axis=0) for name, x in self.window(series, weights).items()}
         found = couette.profiles(q)
-        known = found["density"] > 0
-        temperature = np.where(known, found["temperature"], 1.0)
-        paths = found["density"] * local_mean_free_paths(self.gas, temperature)
-        width = float(self.length) / self.layers * paths
-        excess = float(np.mean(CONDUCTED * width**2))
-        if excess <= TOO_WIDE:
-            return ""
-        return (
-            f"Layers up to {np.max(width):.2g} mean free paths wide conduct momentum "
-            f"{100 * excess:.2g}% too well; take at least "
-            f"{int(np.ceil(self.layers * np.sqrt(excess / TOO_WIDE)))} layers for {TOO_WIDE:.0%}."
-        )
+        length = float(self.length)
+        return remark_on_layers(self.gas, found["density"], found["temperature"], length)
 
     def averages(self, record: WalledRecord) -> dict[str, np.ndarray]:
         """Densities and fluxes of each record, in the frame of the laboratory: all add up."""

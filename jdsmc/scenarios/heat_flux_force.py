@@ -170,7 +170,7 @@ class HeatFluxForce(AbstractHomogeneous):
             return velocity, tally, (runaway, temperature_of(velocity))
 
         velocity, majorant, tally, elapsed, (runaway, after) = make_steps(
-            *(step, key, velocity, state.majorant),
+            *(step, self.gas, key, velocity, state.majorant),
             *(sampled.isotropic.temperature(), 0.0, options),
         )
         root, cube = slowed_rates(after, 1.0)

@@ -42,7 +42,7 @@ from .pace import make_steps
 
 
 class HomogeneousState(eqx.Module):
-    """Velocities, each component rows x lanes (v0), and the majorant over v0(T)."""
+    """Velocities, each component rows x lanes (v0), and the majorant over `pace.warmth`."""
 
     velocity: Velocity
     majorant: Scalar
@@ -141,7 +141,7 @@ class AbstractHomogeneous(AbstractScene):
             return velocity, tally, (tally.watched, duration)
 
         velocity, majorant, tally, elapsed, (noise, durations) = make_steps(
-            *(step, key, velocity, state.majorant),
+            *(step, self.gas, key, velocity, state.majorant),
             *(sampled.temperature(), self.rate(), options),
         )
         whole = sampled, tally, elapsed, jnp.zeros_like(elapsed), jnp.ones(2, elapsed.dtype)

@@ -117,7 +117,8 @@ class HomogeneousCooling(AbstractHomogeneous):
             return velocity, tally, temperature_of(velocity)
 
         velocity, majorant, tally, elapsed, after = make_steps(
-            step, key, velocity, state.majorant, sampled.temperature(), 0.0, options
+            *(step, self.gas, key, velocity, state.majorant),
+            *(sampled.temperature(), 0.0, options),
         )
         slowing = jnp.ones(2, elapsed.dtype)
         if self.exponent is not None:

@@ -23,6 +23,13 @@ RUNGS = 50 * 2 ** np.arange(50)
 """Numbers of layers to choose from. Few, so that neighbouring points of a sweep need the same: a
 point has the layers, and so the numbers, that it has in a run of its own."""
 
+CONDUCTED = 16.0 / (45.0 * np.pi)
+"""Share by which collisions across a layer of Δz raise the viscosity, over (Δz/λ)² (Alexander,
+Garcia and Alder, Phys. Fluids 10, 1540 (1998))."""
+
+TOO_WIDE = 0.01
+"""The same in the mean of all layers before a run remarks on it."""
+
 JUMP = 2.127
 """Temperature jump at a wall over λ dT/dz (hard spheres, Maxwell walls)."""
 
@@ -66,6 +73,25 @@ def local_mean_free_paths(gas, temperature: np.ndarray) -> np.ndarray:
     paths = [mean_free_paths(gas, INITIAL_TEMPERATURE * np.exp(one)) for one in ends]
     known = np.log(np.maximum(paths, 1e-300))
     return np.exp(np.interp(np.log(np.maximum(temperature, 1e-6)), ends, known))
+
+
+def remark_on_layers(gas, density: np.ndarray, temperature: np.ndarray, length: float) -> str:
+    """A sentence on layers that are too wide for the gas in them; or none.
+
+    Arguments: one gas; profiles of n/n̄ and T/T0, NaN where nothing is known; L in λ0.
+    """
+    layers = len(density)
+    known = (density > 0) & np.isfinite(temperature)
+    paths = density * local_mean_free_paths(gas, np.where(known, temperature, 1.0))
+    width = length / layers * np.where(known, paths, 0.0)
+    excess = float(np.mean(CONDUCTED * width**2))
+    if excess <= TOO_WIDE:
+        return ""
+    return (
+        f"Layers up to {np.max(width):.2g} mean free paths wide conduct momentum "
+        f"{100 * excess:.2g}% too well; take at least "
+        f"{int(np.ceil(layers * np.sqrt(excess / TOO_WIDE)))} layers for {TOO_WIDE:.0%}."
+    )
 
 
 def common_layers(wanted) -> int:

@@ -153,7 +153,7 @@ class NavierStokes(AbstractScene):
         held = jnp.asarray(INITIAL_TEMPERATURE, options.dtype)
 
         def step(state, count):
-            majorant, length = pace(held, state.majorant, 0.0, options)
+            majorant, length = pace(self.gas, held, state.majorant, 0.0, options)
             velocity, tally = collide(
                 random.fold_in(key, count), self.gas, options.rows, state.velocity, majorant, length
             )
@@ -177,7 +177,7 @@ class NavierStokes(AbstractScene):
 
         def step(carry, count):
             copies, reduced, time, log_growth = carry
-            majorant, length = pace(reference, reduced, 0.0, options)
+            majorant, length = pace(self.gas, reference, reduced, 0.0, options)
             stage_key = random.fold_in(key, count)
 
             def one_copy(velocity, temperature):

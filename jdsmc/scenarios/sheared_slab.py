@@ -34,7 +34,7 @@ from ..units import INITIAL_TEMPERATURE
 from .approach import Approach, of_sheared_slab
 from .base import Record
 from .kinetic_model import check_start, sheared
-from .layers import common_layers, own_mean_free_paths
+from .layers import common_layers, own_mean_free_paths, remark_on_layers
 from .options import Options
 from .slab import AbstractSlab, SlabState, uniform
 
@@ -277,6 +277,13 @@ class ShearedSlab(AbstractSlab):
         return (
             rate * np.exp(gammaln(half) - gammaln(half + 0.5 * exponent)) * half ** (0.5 * exponent)
         )
+
+    def remarks(self, series: dict[str, np.ndarray], weights: np.ndarray) -> str:
+        """Layers that are too wide for the gas that is in them now."""
+        q = {name: np.mean(x, axis=0) for name, x in self.window(series, weights).items()}
+        found = self.observables(q)
+        length = float(self.length)
+        return remark_on_layers(self.gas, found["density"], found["temperature"], length)
 
     def observables(self, means: dict) -> dict:
         """Global stresses, and the profiles: density, flow, T/T0 and P_ij/nT of each layer."""
