@@ -136,7 +136,8 @@ def power_law(gas: AbstractGas) -> float:
 
 def energy_loss_rates(gas: AbstractGas) -> np.ndarray:
     """Energy that one gas loses in collisions at temperatures of many decades."""
-    return np.array([float(gas.energy_loss_rate(t)) for t in local.TEMPERATURES])
+    rates = np.asarray(gas.energy_loss_rate(local.TEMPERATURES), dtype=float)
+    return np.broadcast_to(rates, local.TEMPERATURES.shape)
 
 
 def conserves_energy(gas: AbstractGas) -> bool:

@@ -47,21 +47,23 @@ def thin_layers(gas, cold_temperature, gravity, length, *, jump: bool, times: in
     length, gravity = np.clip(length, 1e-6, 1e3), np.clip(gravity, -1.0, 1.0)
     cold = np.clip(cold, 1e-6, 1.0)
     wanted = length * densest(cold, gravity, length, jump) / WIDEST
-    own = own_mean_free_paths(gas, np.unique(cold))
-    return common_layers(np.maximum(FEWEST, times * np.multiply.outer(own, wanted)))
+    own = own_mean_free_paths(gas, cold[:, 0, 0])[..., None, None]
+    return common_layers(np.maximum(FEWEST, times * own * wanted))
 
 
 def own_mean_free_paths(gas, temperatures) -> np.ndarray:
-    """Mean free paths of each point of a gas in one λ0, at T0 or one of these (T0) if more.
+    """Mean free paths in one λ0, at T0 or at a temperature (T0) if more: (gases, temperatures).
 
     1 for hard spheres, whose layers these rules are made for.
     """
     traced = any(isinstance(leaf, jax.core.Tracer) for leaf in jax.tree.leaves(gas))
     if isinstance(gas, HardSpheres) or not isinstance(gas, AbstractGas) or traced:
-        return np.ones(1)
-    asked = INITIAL_TEMPERATURE * np.unique([*np.ravel(temperatures), 1.0])
-    points = sweep.points(gas)[0]
-    return np.array([max(mean_free_paths(one, t) for t in asked) for one in points])
+        return np.ones((1, len(temperatures)))
+    found = [
+        [mean_free_paths(one, INITIAL_TEMPERATURE * t) for t in (1.0, *temperatures)]
+        for one in sweep.points(gas)[0]
+    ]
+    return np.maximum(np.array(found)[:, 1:], np.array(found)[:, :1])
 
 
 def local_mean_free_paths(gas, temperature: np.ndarray) -> np.ndarray:

@@ -134,7 +134,7 @@ class ShearedSlab(AbstractSlab):
             known = lengths.dtype.kind == "f" and np.all(np.isfinite(lengths))  # else refused soon
             wanted = np.clip(lengths, 0.0, 1e3) / WIDEST if known else FEWEST
             check_gas(self.gas)
-            own = own_mean_free_paths(self.gas, 1.0)
+            own = own_mean_free_paths(self.gas, [1.0])[:, 0]
             self.layers = common_layers(np.maximum(FEWEST, np.multiply.outer(own, wanted)))
 
     def __check_init__(self):

@@ -10,7 +10,7 @@ import jdsmc
 from jdsmc.gases.base import conserves_energy
 from jdsmc.gases.hard_spheres import loses_energy
 from jdsmc.gases.relaxation import mean_free_paths, relaxation, tail_exponent
-from jdsmc.scenarios import CouetteFlow, HomogeneousCooling, ShearedSlab
+from jdsmc.scenarios import CouetteFlow, FourierFlow, HomogeneousCooling, ShearedSlab
 from jdsmc.scenarios.approach import (
     of_conduction,
     of_couette_flow,
@@ -152,6 +152,11 @@ def test_slabs_count_mean_free_paths_of_their_own_gas():
     """f times the collisions in L is L f."""
     one, other = ShearedSlab(Powers(0.45, 20.0), 0.1, 1.0), ShearedSlab(Powers(0.45), 0.1, 20.0)
     assert one.layers == other.layers == 200
+    molecules = jdsmc.MaxwellMolecules()  # colder ones collide more often over a length
+    layers = {t: FourierFlow(molecules, t, length=10.0).layers for t in (1.0, 0.05)}
+    assert layers == {1.0: 100, 0.05: 400}
+    with pytest.raises(ValueError, match="100 to 400 layers"):
+        FourierFlow(molecules, [1.0, 0.05], length=10.0)
     couette = (CouetteFlow(Powers(0.5, f), 0.0, length=x) for f, x in ((20.0, 2.0), (1.0, 40.0)))
     assert len({scene.layers for scene in couette}) == 1
     for of in (
