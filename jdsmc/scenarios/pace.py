@@ -4,7 +4,7 @@ import jax.numpy as jnp
 from jax import lax
 
 from .. import random
-from ..collisions.bound import FASTEST_PAIR, next_majorant
+from ..collisions.bound import next_majorant
 from ..collisions.meet import Collisions
 from ..gases import AbstractGas, ElasticHardSpheres, InelasticHardDisks, InelasticHardSpheres
 from ..gases.base import pair_rate
@@ -14,6 +14,10 @@ from .options import Options
 LARGEST_SHARE = 0.9
 """Share of the slots that are candidates at most. A pair that outruns the majorant by less than 11%
 then still collides as often as it should: a gas that heats up within a record makes such pairs."""
+
+FAST_PAIR = 8.0
+"""Relative speed over v0(T) of a fast pair: a power of two, so that rates proportional to the speed
+give v0(T) to the bit."""
 
 
 def pace(
@@ -37,7 +41,7 @@ def warmth(gas: AbstractGas, thermal: Scalar) -> Scalar:
     Maxwell molecules that cool."""
     if isinstance(gas, InelasticHardSpheres | ElasticHardSpheres | InelasticHardDisks):
         return thermal
-    now, before = (pair_rate(gas, FASTEST_PAIR * v) for v in (thermal, jnp.ones_like(thermal)))
+    now, before = (pair_rate(gas, FAST_PAIR * v) for v in (thermal, jnp.ones_like(thermal)))
     known = (now > 0) & (before > 0)
     return jnp.where(known, now / jnp.where(known, before, 1.0), thermal)
 
