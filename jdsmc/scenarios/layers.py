@@ -47,7 +47,7 @@ def thin_layers(gas, cold_temperature, gravity, length, *, jump: bool, times: in
     length, gravity = np.clip(length, 1e-6, 1e3), np.clip(gravity, -1.0, 1.0)
     cold = np.clip(cold, 1e-6, 1.0)
     wanted = length * densest(cold, gravity, length, jump) / WIDEST
-    own = own_mean_free_paths(gas, cold[:, 0, 0])[..., None, None]
+    own = own_mean_free_paths(gas, np.clip(slab[0], 1e-6, 1.0))[..., None, None]
     return common_layers(np.maximum(FEWEST, times * own * wanted))
 
 
