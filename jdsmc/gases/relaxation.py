@@ -17,6 +17,7 @@ from scipy.special import genlaguerre, roots_genlaguerre
 
 from ..units import INITIAL_TEMPERATURE
 from . import local
+from .hard_spheres import ElasticHardSpheres, InelasticHardSpheres
 
 ORDERS = {0: (2, 3), 1: (1, 2), 2: (0, 1)}
 """Sonine polynomials of each rank: the first two that no conservation law holds at zero."""
@@ -83,8 +84,10 @@ def mean_free_paths(gas, temperature: float) -> float:
     """Mean free paths of a gas in one λ0 at T (m v0²), by the decay of its stress.
 
     1 for elastic hard spheres, f for a gas that collides f times as often: what matters to layers
-    and to diffusion across a slab.
+    and to diffusion across a slab, whose rules are made for hard spheres: 1 for all of these.
     """
+    if isinstance(gas, InelasticHardSpheres | ElasticHardSpheres):
+        return 1.0
     decay = float(relaxation(gas, temperature, 2).collisions[0, 0])
     return max(decay, 0.0) / (ELASTIC_DECAY * np.sqrt(temperature / INITIAL_TEMPERATURE))
 

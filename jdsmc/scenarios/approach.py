@@ -158,7 +158,8 @@ def of_sheared_slab(
     """
     shear = of_sheared_gas(gas, shear_rate)
     if not isinstance(gas, HardSpheres):
-        across = 0.03 * sqrt(pi) * length**2 * own_length(gas) * _at_start(gas.collision_rate)
+        own = mean_free_paths(gas, INITIAL_TEMPERATURE)
+        across = own_collisions(gas, own, length, 0.03 * (own * length) ** 2)
         return shear._replace(collisions=shear.collisions + across)
     cooling, beta = (float(x) for x in rates_of_model(gas))
     hottest = 1.0 + (shear_rate * length) ** 2 / 18.0
@@ -170,20 +171,13 @@ def of_sheared_slab(
     )
 
 
-def own_length(gas: AbstractGas) -> float:
-    """Mean free paths of a gas in one λ0; 1 of hard spheres, of which the slabs' rules are."""
-    return 1.0 if isinstance(gas, HardSpheres) else mean_free_paths(gas, INITIAL_TEMPERATURE)
-
-
-def own_collisions(gas: AbstractGas, length: float, collisions: float) -> float:
+def own_collisions(gas: AbstractGas, own: float, length: float, collisions: float) -> float:
     """Collisions per particle of a gas in the time in which those of hard spheres are so many.
 
-    A slab of hard spheres as many mean free paths long takes so many τ0 times `own_length`; a gas
-    that hardly collides forgets its start by crossing the slab.
+    A slab of hard spheres as many mean free paths long takes so many τ0 times `own`, those in one
+    λ0; a gas that hardly collides forgets its start by crossing the slab.
     """
-    if isinstance(gas, HardSpheres):
-        return collisions
-    each = min(1.0 / max(own_length(gas), 1e-300), max(length, 1.0))
+    each = min(1.0 / max(own, 1e-300), max(length, 1.0))
     return collisions * each * sqrt(pi) * _at_start(gas.collision_rate)
 
 
@@ -204,11 +198,10 @@ def of_conduction(
     give the factor below (1 at T_- = 1, 1.4 at 0.01). With gravity the layers fill first, and a
     side of the slab may empty: then the run itself must tell.
     """
-    own = length * own_length(gas)
-    root = sqrt(cold_temperature)
+    own, root = mean_free_paths(gas, INITIAL_TEMPERATURE), sqrt(cold_temperature)
     spread = 1.0 if root > 0.99 else (1.0 + root) * log(1.0 / root) / (2.0 * (1.0 - root))
     return Approach(
-        own_collisions(gas, length, 0.088 * (own + 4.0) ** 2 * spread),
+        own_collisions(gas, own, length, 0.088 * (own * length + 4.0) ** 2 * spread),
         log(max(1.0, 2.0 * abs(gravity) * length)),
         certain=abs(gravity) * length < 0.5 and isinstance(gas, MEASURED),
     )
@@ -225,10 +218,10 @@ def of_couette_flow(
     of order U². A gas that loses energy has a time of its own: then the run itself must tell.
     """
     slip = 2.0 * (2.0 - accommodation) / accommodation
-    own, root = length * own_length(gas), sqrt(cold_temperature)
-    diffusing = 2.0 + 0.102 * (own**2 + 5.0 * slip * own) / root
+    own, root = mean_free_paths(gas, INITIAL_TEMPERATURE), sqrt(cold_temperature)
+    diffusing = 2.0 + 0.102 * own * length * (own * length + 5.0 * slip) / root
     return Approach(
-        own_collisions(gas, length, diffusing),
+        own_collisions(gas, own, length, diffusing),
         log(1.0 + motion**2),
         certain=isinstance(gas, MEASURED) and not loses_energy(gas) and motion < 2.0,
     )

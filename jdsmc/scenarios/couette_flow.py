@@ -17,13 +17,15 @@ from ..fields import number
 from ..gases import AbstractGas
 from ..gases.base import conserves_energy, pair_rate
 from ..gases.hard_spheres import loses_energy
+from ..gases.relaxation import mean_free_paths
 from ..measure import couette
 from ..measure.observable import Observable
 from ..motion.cells import totals
 from ..motion.flight import Exchange
 from ..motion.walls import Walls
 from ..types import Key, Profile, Scalar
-from .approach import Approach, of_couette_flow, own_length
+from ..units import INITIAL_TEMPERATURE
+from .approach import Approach, of_couette_flow
 from .layers import remark_on_layers, thin_layers
 from .options import Options
 from .slab import SlabState
@@ -124,7 +126,8 @@ class CouetteFlow(AbstractWalled):
 
     def approach(self, options: Options) -> Approach:
         """Diffusion of momentum and heat across the slab."""
-        motion = self.wall_velocity + abs(self.driven(own_length(self.gas)))
+        own = mean_free_paths(self.gas, INITIAL_TEMPERATURE)
+        motion = self.wall_velocity + abs(self.driven(own))
         found = of_couette_flow(
             *(self.gas, self.cold_temperature, motion),
             *(self.accommodation, self.length),

@@ -5,11 +5,9 @@ import jax.core
 import numpy as np
 
 from .. import check, sweep
-from ..gases import AbstractGas
 from ..gases.base import check_gas
 from ..gases.relaxation import mean_free_paths
 from ..units import INITIAL_TEMPERATURE
-from .kinetic_model import HardSpheres
 
 WIDEST = 0.5
 """Widest layer between walls, in mean free paths at the densest place. A layer of Δz conducts
@@ -52,12 +50,9 @@ def thin_layers(gas, cold_temperature, gravity, length, *, jump: bool, times: in
 
 
 def own_mean_free_paths(gas, temperatures) -> np.ndarray:
-    """Mean free paths in one λ0, at T0 or at a temperature (T0) if more: (gases, temperatures).
-
-    1 for hard spheres, whose layers these rules are made for.
-    """
+    """Mean free paths in one λ0, at T0 or at a temperature (T0) if more: (gases, temperatures)."""
     traced = any(isinstance(leaf, jax.core.Tracer) for leaf in jax.tree.leaves(gas))
-    if isinstance(gas, HardSpheres) or not isinstance(gas, AbstractGas) or traced:
+    if traced:
         return np.ones((1, len(temperatures)))
     found = [
         [mean_free_paths(one, INITIAL_TEMPERATURE * t) for t in (1.0, *temperatures)]
@@ -68,8 +63,6 @@ def own_mean_free_paths(gas, temperatures) -> np.ndarray:
 
 def local_mean_free_paths(gas, temperature: np.ndarray) -> np.ndarray:
     """Mean free paths of one gas in one λ0 at temperatures over T0, as a power law between them."""
-    if isinstance(gas, HardSpheres):
-        return np.ones_like(temperature)
     ends = np.log(np.clip([np.min(temperature), np.max(temperature)], 1e-6, 1e6))
     ends[1] = max(ends[1], ends[0] + 1e-3)
     paths = [mean_free_paths(gas, INITIAL_TEMPERATURE * np.exp(one)) for one in ends]
