@@ -108,6 +108,19 @@ def unit_interval(word: Word, dtype, n_bits: int = 23):
     return ((word >> (32 - n_bits)).astype(dtype) + 0.5) * 2.0**-n_bits
 
 
+def below(word: Word, count: Word) -> Word:
+    """Integers from 0 to count - 1: the upper word of the product of each word with its `count`.
+
+    Each is as likely as the others to count/2^32, where a number of 23 bits times `count` misses
+    some beyond 2^23 and has others twice as often before.
+    """
+    low, high = word & 0xFFFF, word >> 16
+    count_low, count_high = count & 0xFFFF, count >> 16
+    upper = high * count_low + (low * count_low >> 16)
+    lower = low * count_high + (upper & 0xFFFF)
+    return high * count_high + (upper >> 16) + (lower >> 16)
+
+
 def three_uniforms(words: tuple[Word, Word], dtype):
     """Three uniform numbers in (0, 1) of 21, 21 and 22 bits from two words.
 

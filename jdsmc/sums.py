@@ -5,18 +5,21 @@ from jax import lax
 
 from .types import Scalar
 
-FOLDS = 8
-"""Rows that are added up side by side."""
+FOLDS, ROW = 8, 256
+"""Rows that are added up side by side; lanes of the rows that a long array without any is cut
+into."""
 
 
 def total(values) -> Scalar:
-    """Sum of an array (rows, lanes), or of one with another number of axes.
+    """Sum of an array (rows, lanes), of one without rows, or of one with more axes.
 
     Rows are folded first, all lanes of a CPU at work, then lanes and what is left are added up: the
     rounding error grows as √lanes + √rows. The barrier keeps XLA from making the values again in
     slow loops of single numbers (a product with ones would too, but rounds differently in different
     places of a batch).
     """
+    if values.ndim == 1 and values.size >= FOLDS * ROW:
+        values = jnp.pad(values, (0, -values.size % ROW)).reshape(-1, ROW)
     each = values.shape[0] // FOLDS
     if values.ndim < 2 or each == 0:
         return jnp.sum(values)

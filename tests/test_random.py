@@ -47,6 +47,15 @@ def test_uniform_numbers():
         assert abs(np.corrcoef(numbers[a], numbers[b])[0, 1]) < 4.5 / np.sqrt(n)
 
 
+def test_whole_numbers_below_are_the_exact_upper_words():
+    rng = np.random.default_rng(0)
+    ends = np.array([0, 1, 0xFFFF, 0x10000, 0x7FFFFFFF, 0xFFFFFFFF], np.uint32)
+    word, count = np.meshgrid(np.append(ends, rng.integers(0, 2**32, 500)), ends[1:])
+    found = random.below(jnp.asarray(word, jnp.uint32), jnp.asarray(count, jnp.uint32))
+    exact = word.astype(object) * count.astype(object) // 2**32
+    assert np.array_equal(np.asarray(found).astype(object), exact)
+
+
 def test_three_uniforms_use_every_bit_once():
     """21 + 21 + 22 bits: the words can be put together again from the three numbers."""
     words = random.bits(random.key_from_seed(2), (64,))

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from ..random import sin_cos_turns
-from ..sums import mean
+from ..sums import mean, total
 from ..types import Layer, Positions, Scalar, Velocities
 
 MODES = ((0, 1), (1, 0), (1, 1), (1, -1))
@@ -52,7 +52,7 @@ def transverse_modes(
     """Σ w_⊥ exp(i k·r), real and imaginary part, for the four smallest wave vectors (`MODES`).
 
     Velocities across k: w_x for k along y, w_y for k along x, (w_x ∓ w_y)/√2 for the diagonals. The
-    sums run over halves of halves: in float32 their rounding is 1e-6 of what fluctuates.
+    sums are made in rows: in float32 their rounding is 1e-6 of what fluctuates.
     """
     (sx, cx), (sy, cy) = (sin_cos_turns(x / side) for x in position)
     vx, vy = velocity
@@ -64,17 +64,6 @@ def transverse_modes(
         (root * (vx + vy), cx * cy + sx * sy, sx * cy - cx * sy),
     )
     return jnp.stack([jnp.stack([total(v * c), total(v * s)]) for v, c, s in waves])
-
-
-ROW = 256
-"""Particles summed at once."""
-
-
-def total(values: Positions) -> Scalar:
-    """A sum in rows, then over rows."""
-    count = values.shape[0]
-    padded = jnp.pad(values, (0, -count % ROW))
-    return jnp.sum(jnp.sum(padded.reshape(-1, ROW), axis=1))
 
 
 def still(velocity: Velocities) -> Velocities:

@@ -7,7 +7,7 @@ import pytest
 
 from jdsmc import InelasticHardSpheres, MaxwellMolecules, random
 from jdsmc.collisions.in_cells import collide_in_layers
-from jdsmc.collisions.trios import groups_in, most_groups, seat, shares
+from jdsmc.collisions.trios import _one_of, groups_in, most_groups, seat, shares
 from jdsmc.motion.cells import layer_of, populations, totals
 
 f32 = jnp.float32
@@ -55,6 +55,19 @@ def test_every_pair_is_met_equally_often_and_as_often_as_said(population):
         met += float(parts[wave][0]) * table.sum() / draws
     # each pair must be met once per unit of rate; counts are Poissonian or narrower
     assert met == pytest.approx(pairs, rel=5 / np.sqrt(table.sum()))
+
+
+def test_millions_of_seats_are_all_alike():
+    """The first word of each seat takes it, and the word before the seat before."""
+    width = 10_000_019
+    seats = np.random.default_rng(0).integers(1, width, 1000)
+    first = np.array([-(-int(k) * 2**32 // width) for k in seats], np.uint32)
+    many = jnp.full(1000, width, jnp.int32)
+    for words, wanted in ((first, seats), (first - 1, seats - 1)):
+        found = np.asarray(_one_of(jnp.asarray(words), many, fine=True))
+        assert np.array_equal(found, wanted)
+    # 23 bits cannot
+    assert np.any(np.asarray(_one_of(jnp.asarray(first), many, fine=False)) != seats)
 
 
 def _gas(key, n, count, temperature=0.5):
