@@ -47,8 +47,10 @@ def in_range(name, value, low, high, *, low_included=True, high_included=True, a
     below = array <= high if high_included else array < high
     good = np.isfinite(array) & above & below
     if not np.all(good):
-        bad = np.atleast_1d(array)[~np.atleast_1d(good)][0]
-        raise ValueError(f"{name} = {bad:g} is outside the allowed range {interval}.")
+        bad = float(np.atleast_1d(array)[~np.atleast_1d(good)][0])
+        rounded = float(f"{bad:g}") in (low, high) and bad not in (low, high)  # 1.0000001, not 1
+        shown = repr(bad) if rounded else f"{bad:g}"
+        raise ValueError(f"{name} = {shown} is outside the allowed range {interval}.")
     if not axes <= array.ndim <= axes + 1:
         kind = "a scalar" if axes == 0 else f"an array of {axes} axes"
         raise ValueError(

@@ -18,7 +18,7 @@ from .running import checkpoint as checkpoints
 from .running.checkpoint import EVERY, Keeper, check_every
 from .running.limits import Limits
 from .running.resume import from_file
-from .running.run import options_of, run, scenes_of, simulate
+from .running.run import options_of, repeated, run, scenes_of, simulate
 from .scenarios.cooling_response import CoolingResponse
 from .scenarios.navier_stokes import NavierStokes, duration_for, kick_for
 from .scenarios.options import STEPS_PER_RECORD
@@ -88,7 +88,9 @@ def navier_stokes(
     numerics |= {"dtype": "float32", "steps_per_record": STEPS_PER_RECORD}
     options = options_of(scenes, **numerics)
     limits = Limits(scenes, options, rtol=rtol or 1e-9, budget=1e12, records=kicks)
-    chosen = numerics | {"n_realizations": n_realizations, "seed": seed, "sensitivity": False}
+    n_realizations, seed = repeated(n_realizations, seed)
+    chosen = numerics | {"n_realizations": n_realizations, "seed": seed}
+    chosen |= {"sensitivity": False, "along": False}
     check_every(every)
     keeper = None if checkpoint is None else Keeper(checkpoint, every, scene, chosen, new=True)
     return with_lag_as_series(

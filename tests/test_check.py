@@ -42,7 +42,7 @@ def test_what_is_no_number(value):
 
 @pytest.mark.parametrize("value", [0.0, -0.1, 1.0000001, np.nan, np.inf, [0.5, 2.0]])
 def test_restitution_outside_its_range(value):
-    bad = f"{np.max(value):g}"
+    bad = "1.0000001" if value == 1.0000001 else f"{np.max(value):g}"
     with pytest.raises(ValueError, match=r"restitution = .* allowed range \(0, 1\]") as caught:
         IHS(value)
     assert f"= {bad} is" in str(caught.value)

@@ -18,6 +18,7 @@ from ..errors import NotSteadyError
 from ..fields import ingredients
 from ..results.result import Result
 from ..results.sensitivity import Sensitivity
+from ..running.checkpoint import check_none
 from ..running.run import run
 from ..scenarios.base import AbstractScene
 from ..stats import spread_to
@@ -74,6 +75,7 @@ def sensitivity_by_sweep(
     Raises ValueError for a swept scene, for what is no number, for one that cannot be varied (the
     restitution of a Fourier flow), and what `jdsmc.run` raises.
     """
+    check_none(options, "a smooth fit")
     if sweep.swept_paths(scene):
         raise ValueError("a smooth fit is about one point; give a scene without arrays.")
     paths = chosen_paths(sweep.points(scene)[0][0], wrt)

@@ -46,7 +46,7 @@ def values(scene: AbstractHomogeneous, sampler: Sampler, state: State) -> dict[s
     record = on_host(
         HeatRecord if isinstance(scene, HeatFluxForce) else HomogeneousRecord,
         **{"moments": moments, "elapsed": one, "log_scale": none},
-        slowing=np.stack([one, one], -1),
+        **{"slowing": np.stack([one, one], -1), "final": heat},
     )
     means = dict(scene.averages(record))
     squares = [sampler.rows.index(powers) for powers in sampler.symmetry.squares]

@@ -9,6 +9,7 @@ from .. import check
 from .. import sweep as sweeps
 from ..estimate import Estimate
 from ..results.result import Result
+from ..running.checkpoint import check_none
 from ..running.run import run
 from ..scenarios import AbstractScene
 from .elastic import matches, scales
@@ -70,6 +71,7 @@ def calibrate(
     if not isinstance(sweep, Result | None):
         raise TypeError(f"sweep must be a result of elastic_sweep(model, ...), got {sweep!r}.")
     options = USUAL | options
+    check_none(options, "a calibration")
     if fits[0].of_series:
         return _transients(reference, model, fits, free, options)
     if not scaled and alpha is not None and len(alpha) > 1:

@@ -37,14 +37,16 @@ def series_of(result: Result, names: tuple[str, ...], point: int) -> tuple[np.nd
     """
     if result.under_way is None:
         data = result.series
-        found = [Estimate(data[n].values, data[f"{n}_error"].values) for n in names]
-        return data["time"].values, found
+        time, one = data["time"].values, np.zeros(data.sizes["sample"], int)
+        known = ((data[n].values, data[f"{n}_error"].values) for n in names)
+        return time, [Estimate(*both, points=one) for both in known]
     history = result.under_way.session.history
     time, means = history.on_common_times(point)
     scene = history.scenes[point]
     value, error, left_out = jackknife(means, lambda x: against_time(scene, x), axis=0)
     key = (result.attrs["run"], f"series {point}")
-    return time, [Estimate(value[n], error[n], {key: left_out[n]}) for n in names]
+    one = np.zeros(len(time), int)  # all times are of the same gases
+    return time, [Estimate(value[n], error[n], {key: left_out[n]}, one) for n in names]
 
 
 def transient(

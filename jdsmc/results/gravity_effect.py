@@ -115,7 +115,10 @@ def _estimated(result: Result, function, unknown=None) -> dict[str, Estimate]:
         error = {name: np.where(unknown, np.nan, x) for name, x in error.items()}
         left_out = {name: np.where(unknown, np.nan, x) for name, x in left_out.items()}
     run = (result.attrs["run"], "all gravities")
-    return {name: Estimate(value[name], error[name], {run: left_out[name]}) for name in value}
+    return {
+        name: Estimate(x, error[name], {run: left_out[name]}, np.zeros(np.shape(x), int))
+        for name, x in value.items()
+    }
 
 
 def means(result: Result) -> dict[str, np.ndarray]:

@@ -86,6 +86,10 @@ class Result:
         """Names of what has a steady value."""
         return (str(name) for name in self.steady.data_vars if name in self)
 
+    def __bool__(self) -> bool:
+        """A result is one, with steady values or without."""
+        return True
+
     def __len__(self) -> int:
         return sum(1 for _ in self)
 
@@ -101,8 +105,10 @@ class Result:
 
     @property
     def interrupted(self) -> bool:
-        """True if a signal (Ctrl-C, SIGTERM) ended the run before what was asked."""
-        return str(self.attrs.get("stopped", "")).startswith("interrupted")
+        """True if a signal (Ctrl-C, SIGTERM) ended the run, or one of several that were put
+        together, before what was asked."""
+        ends = str(self.attrs.get("stopped", "")).split("; ")
+        return any(end.startswith("interrupted") for end in ends)
 
     @property
     def attrs(self) -> dict:
@@ -168,6 +174,8 @@ class Result:
             swept = ", ".join(self.dims) or "nothing"
             raise KeyError(f"{name} was not swept; swept: {swept}.")
         values = self.steady[name].values
+        if isinstance(value, xr.DataArray) and not value.ndim:
+            value = value.item()
         if np.ndim(value) or (values.dtype.kind == "f") != isinstance(
             check.physical(value), np.ndarray
         ):

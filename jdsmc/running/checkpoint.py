@@ -29,7 +29,13 @@ EVERY = 300.0
 SHARE = 0.01
 """Largest share of a run that is spent on writing."""
 
-KIND, SCHEMA = "jdsmc checkpoint", 1
+KIND, SCHEMA = "jdsmc checkpoint", 2
+
+
+def check_none(options: dict, made: str) -> None:
+    """Raise ValueError for a checkpoint where several runs are made: it keeps one."""
+    if options.get("checkpoint") is not None:
+        raise ValueError(f"checkpoint keeps one run, and {made} makes several: leave it out.")
 
 
 def check_every(every) -> None:

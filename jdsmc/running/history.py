@@ -11,6 +11,9 @@ from .growing import Growing
 TAIL = 64
 """Records from the end among which the last common sample is looked for first."""
 
+FINAL = {"local_rate": "final_rate", "local_loss": "final_loss"}
+"""Averages over the steps of a record; or, beside what holds at its end, those at its start."""
+
 CLOCKS = ("elapsed", "accepted", "energy_lost", "time", "collisions")
 
 
@@ -193,32 +196,73 @@ class History:
         return int(np.searchsorted(np.min(self["collisions"][point], axis=0), collisions))
 
     def on_common_times(self, point: int) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-        """Averages of every realization of one point at the mean times of the records.
+        """Averages of every realization of one point at the mean times of the samples.
 
         Realizations have their own clocks (their time step follows their own temperature); each is
         interpolated linearly in time to the mean clock, as far as all have come; in the logarithm
-        of time, and to the mean of that, where a scene gives logarithms.
+        of time, and to the mean of that, where a scene gives logarithms. What is counted over a
+        record belongs to its middle.
         Returns: times (records,) and averages (realizations, records, ...).
         """
-        in_logs = "log_time" in self._columns
-        time = self["log_time" if in_logs else "time"][point]
-        common = np.mean(time, axis=0)
-        common = common[common <= np.min(time[:, -1])]
-        series = {name: self[name][point] for name in self.names}
-        elapsed = self["elapsed"][point]
-        series |= self.records(point, 0, self.length)
-        series["collisions"] = self["collisions"][point]
+        scene, in_logs = self.scenes[point], "log_time" in self._columns
+        clock = "log_time" if in_logs else "time"
+        start = self[clock][point]
+        end = np.concatenate([start[:, 1:], self._totals[clock][point][:, None]], axis=1)
+        own, middle = start + scene.measured_at * (end - start), 0.5 * (start + end)
+        common = np.mean(own, axis=0)
+        common = common[common <= np.min(own[:, -1])]
+        series = self.records(point, 0, self.length)
+        edges = np.concatenate([start[:, :1], end], axis=1)
+        collisions = self["collisions"][point], self._totals["collisions"][point][:, None]
+        at = {"collisions": (edges, np.concatenate(collisions, axis=1))}
         if "instant_rate" in series:
-            series["local_collisions"] = _integral(time, series["instant_rate"])
+            at["local_collisions"] = own, _integral(own, series["instant_rate"])
+            for name, final in FINAL.items():
+                if final in series:
+                    series[name] = record_means(edges, series[name], series[final])
         elif "local_rate" in series:
-            steps = series["local_rate"] * elapsed
-            series["local_collisions"] = np.cumsum(steps, axis=1) - steps
+            steps = np.cumsum(series["local_rate"] * self["elapsed"][point], axis=1)
+            at["local_collisions"] = edges, np.concatenate([0.0 * steps[:, :1], steps], axis=1)
+        counted = {"accepted", "energy_lost", "time_step", *FINAL, *scene.counted}
+        for name, values in series.items():
+            at[name] = through_ends(edges, middle, values) if name in counted else (own, values)
         with np.errstate(over="ignore"):
             plain = np.expm1(common) if in_logs else common
         return plain, {
-            name: np.stack([_interpolate(common, *one) for one in zip(time, values, strict=True)])
-            for name, values in series.items()
+            name: np.stack([_interpolate(common, *one) for one in zip(*both, strict=True)])
+            for name, both in at.items()
         }
+
+
+def through_ends(edges: np.ndarray, middle: np.ndarray, values: np.ndarray):
+    """Times and values (realizations, records + 2, ...) of counts at the middle of each record, and
+    on straight lines through the outermost two at both ends of the series."""
+    if middle.shape[1] < 2:
+        return middle, values
+
+    def beyond(end, near, far):
+        times = [edges[:, end], middle[:, near], middle[:, far]]
+        at, one, two = (t.reshape(-1, *(1,) * (values.ndim - 2)) for t in times)
+        return values[:, near] + (values[:, near] - values[:, far]) * (at - one) / (one - two)
+
+    first, last = beyond(0, 0, 1)[:, None], beyond(-1, -1, -2)[:, None]
+    times = np.concatenate([edges[:, :1], middle, edges[:, -1:]], axis=1)
+    return times, np.concatenate([first, values, last], axis=1)
+
+
+def record_means(edges: np.ndarray, first: np.ndarray, last: np.ndarray) -> np.ndarray:
+    """Means over the records of what is known at their starts and ends (realizations, records).
+
+    Of the parabola through both ends of a record and the start of the one before (the first: the
+    end of the next): what follows a record does not change its mean.
+    """
+    length = np.diff(edges, axis=1)
+    slope = (last - first) / length
+    found = 0.5 * (first + last)
+    if length.shape[1] < 2:
+        return found
+    bend = np.diff(slope, axis=1) / (edges[:, 2:] - edges[:, :-2])
+    return found - np.concatenate([bend[:, :1], bend], axis=1) * length**2 / 6.0
 
 
 def _integral(time: np.ndarray, values: np.ndarray) -> np.ndarray:

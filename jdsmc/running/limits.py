@@ -7,6 +7,7 @@ from ..errors import NotSteadyError
 from ..scenarios.approach import UNKNOWN
 from ..scenarios.base import AbstractScene
 from ..scenarios.options import Options
+from .provenance import specification
 from .steady import tracker_for
 
 
@@ -30,15 +31,16 @@ class Limits:
         records=None,
     ):
         scene = scenes[0]
-        self.given = {"duration": duration, "collisions": collisions, "observable": observable}
-        self.given |= {"rtol": rtol, "budget": budget, "records": records}
         if duration is not None and collisions is not None:
             raise ValueError("give duration or collisions, not both.")
         for name, value in (("duration", duration), ("collisions", collisions), ("budget", budget)):
             if value is not None or name == "budget":
                 check.scalar(name, value, 0.0, np.inf, high_included=False)
-        self.duration, self.collisions, self.records = duration, collisions, records
-        self.budget = float(budget)
+        given = {"duration": duration, "collisions": collisions, "observable": observable}
+        self.given = specification(given | {"rtol": rtol, "budget": budget, "records": records})
+        self.duration = None if duration is None else float(duration)
+        self.collisions = None if collisions is None else float(collisions)
+        self.records, self.budget = records, float(budget)
         self.fixed = duration is not None or collisions is not None
         self.observables = _names(scenes[:1] if self.fixed else scenes, observable)
         self.rtol = _shares(scene.default_rtol if rtol is None else rtol, self.observables)
@@ -92,7 +94,7 @@ class Limits:
         shares = tuple(dict.fromkeys(self.rtol.values()))
         asked["rtol"] = shares[0] if len(shares) == 1 else tuple(self.rtol.values())
         times = {"duration": self.duration, "collisions": self.collisions}
-        return asked | {name: float(t) for name, t in times.items() if t is not None}
+        return asked | {name: t for name, t in times.items() if t is not None}
 
 
 def _shares(rtol, names: tuple[str, ...]) -> dict[str, float]:

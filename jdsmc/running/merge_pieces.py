@@ -7,9 +7,9 @@ import numpy as np
 import xarray as xr
 
 from .. import sweep
+from ..results.join import name_of
 from ..results.rebuild import rebuilt
 from ..results.result import Result
-from .merge_realizations import name_of
 
 
 def as_one_sweep(results: list[Result], path: str, classes: tuple[type, ...]) -> Result:

@@ -1,12 +1,10 @@
 """Runs of one scene with different seeds as one run with more realizations."""
 
-import hashlib
-from collections.abc import Sequence
-
 import numpy as np
 import xarray as xr
 
 from .. import sweep
+from ..results.join import name_of
 from ..results.result import FREEDOM, Result
 from .estimates import estimates_of
 
@@ -31,7 +29,7 @@ def more_realizations(results: list[Result], classes: tuple[type, ...]) -> Resul
     if len({"sensitivity" in one.to_xarray().children for one in results}) > 1:
         raise ValueError("some of these runs have derivatives and others not; merge their like.")
     counts = np.array([int(one.attrs["n_realizations"]) for one in results])
-    trees = [one.to_xarray() for one in results]
+    trees = [_in_order(one.to_xarray(), results[0].to_xarray()) for one in results]
     shared = set.intersection(*(set(tree.children) for tree in trees))
 
     def of(name: str) -> list[xr.Dataset]:
@@ -57,6 +55,27 @@ def more_realizations(results: list[Result], classes: tuple[type, ...]) -> Resul
         "run": name_of(results),
     }
     return Result(xr.DataTree.from_dict({"/": root, **groups}))
+
+
+def _in_order(tree: xr.DataTree, first: xr.DataTree) -> xr.DataTree:
+    """Derivatives in the order of the first run; ValueError if they are with respect to others."""
+    if "sensitivity" not in tree.children:
+        return tree
+    wanted, here = (
+        [str(name) for name in one["sensitivity"].to_dataset()["parameter"].values]
+        for one in (first, tree)
+    )
+    if sorted(wanted) != sorted(here):
+        raise ValueError(
+            f"one run has derivatives with respect to {', '.join(wanted)}, another to "
+            f"{', '.join(here)}; merge runs of the same."
+        )
+    return xr.DataTree.from_dict(
+        {
+            path: data.sel(parameter=wanted) if "parameter" in data.dims else data
+            for path, data in tree.to_dict().items()
+        }
+    )
 
 
 def weighted(parts: list[xr.Dataset], counts: np.ndarray) -> xr.Dataset:
@@ -146,9 +165,3 @@ def _own_dims(data: xr.Dataset) -> list:
     """Dimensions in the order of the first variable that has most of them."""
     longest = max(data.data_vars.values(), key=lambda values: values.ndim)
     return list(longest.dims)
-
-
-def name_of(results: Sequence[Result]) -> str:
-    """A name made of those of the runs."""
-    names = sorted(str(one.attrs["run"]) for one in results)
-    return hashlib.blake2b(" ".join(names).encode(), digest_size=12).hexdigest()

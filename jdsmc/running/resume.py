@@ -58,6 +58,11 @@ def resume(
     scene, session, attrs, length = under_way
     if session.history.length != length:
         raise ValueError("this result has been gone on from already; go on from the latest one.")
+    if session.broken_off:
+        raise ValueError(
+            "this run ended within a chunk, which is lost; resume its checkpoint, or run its scene "
+            "again."
+        )
     stopped = str(source.attrs["stopped"])
     if _is_done(stopped, asked):
         return concluded(scene, session, attrs, stopped)
@@ -70,11 +75,10 @@ def from_file(path: Path, kept: Kept, asked: dict, progress: bool, every: float)
     """Go on with the run that a checkpoint keeps; `asked` are the limits that change."""
     scene, chosen = kept.scene, kept.chosen
     points = scenes_of(scene)
-    along = any(kept.limits[name] is not None for name in ("duration", "collisions"))
     sensitivity = chosen["sensitivity"]
     request = None
     if sensitivity is not False:
-        request = requested(scene, points, sensitivity, along=along)
+        request = requested(scene, points, sensitivity, along=chosen["along"])
     numerics = ("n_particles", "time_step", "splitting", "dtype", "steps_per_record")
     options = options_of(points, *(chosen[name] for name in numerics))
     points = [one.prepared() for one in points]
@@ -103,6 +107,6 @@ def _ask(session: Session, asked: dict) -> None:
     if set(asked) - {"budget"}:
         given |= {"duration": None, "collisions": None}
     limits = Limits(session.history.scenes, session.options, **(given | asked))
-    session.go_on(limits)
-    if limits.fixed and session.progress() >= 1.0:
+    if limits.fixed and session.progress(limits) >= 1.0:
         raise ValueError("the time asked for was reached already; ask for more.")
+    session.go_on(limits)

@@ -1,5 +1,6 @@
 """Run a scene: until steady, then until precise; or for a given time."""
 
+import json
 from pathlib import Path
 from typing import Literal
 
@@ -17,6 +18,7 @@ from ..types import Whole
 from .checkpoint import EVERY, Keeper, check_every
 from .going import go_on
 from .limits import Limits
+from .provenance import specification
 from .session import Session
 
 LEAST_REALIZATIONS = 8
@@ -94,7 +96,9 @@ def run(
     along = duration is not None or collisions is not None
     request = None if sensitivity is False else requested(scene, scenes, sensitivity, along=along)
     options = options_of(scenes, n_particles, time_step, splitting, dtype, steps_per_record)
+    n_realizations, seed = repeated(n_realizations, seed)
     scenes = [one.prepared() for one in scenes]
+    check_told(scene, scenes[0].axes(options))
     check_methods(scenes[0], options)
     if request is not None and request.sampler.each:
         check_fixed_start(scenes[0], options, request.paths)
@@ -112,6 +116,7 @@ def run(
         chosen = {"n_particles": n_particles, "time_step": time_step, "splitting": splitting}
         chosen |= {"dtype": str(options.dtype), "steps_per_record": steps_per_record}
         chosen |= {"n_realizations": n_realizations, "seed": seed, "sensitivity": sensitivity}
+        chosen["along"] = along
         keeper = Keeper(checkpoint, every, scene, chosen, new=True)
     return simulate(
         *(scene, scenes, options, limits),
@@ -121,6 +126,32 @@ def run(
         request=request,
         keeper=keeper,
     )
+
+
+def repeated(n_realizations, seed) -> tuple[int, int]:
+    """The checked number of realizations and seed."""
+    low, high = LEAST_REALIZATIONS, MOST_REALIZATIONS
+    return check.size("n_realizations", n_realizations, low, high), check.whole("seed", seed, 0)
+
+
+def check_told(scene: AbstractScene, axes: dict) -> None:
+    """Raise for a scene that its result could not tell of: before the run, not at its end."""
+    try:
+        json.dumps(specification(scene))
+    except TypeError as error:
+        raise TypeError(
+            f"{type(scene).__name__} has a field that a file cannot hold ({error}); fields are "
+            "numbers, text, tuples of these, and gases. What a scene does belongs into its methods."
+        ) from None
+    told = {one.name for one in (*scene.reports, *scene.evolves, *scene.sampled)}
+    told |= {"time", "sample", "collisions", "collision_ratio", "realization", *axes}
+    twice = sorted(told & set(sweep.dimensions(scene)))
+    if twice:
+        raise ValueError(
+            f"{twice[0]} is swept, and is what {type(scene).__name__} reports, too: a result could "
+            "not tell them apart. Give the field of your gas or scene another name, or run its "
+            "values one by one."
+        )
 
 
 def scenes_of(scene) -> list[AbstractScene]:
@@ -161,17 +192,13 @@ def simulate(
     options: Options,
     limits: Limits,
     *,
-    n_realizations: Whole,
-    seed: Whole,
+    n_realizations: int,
+    seed: int,
     progress: bool,
     request: Request | None = None,
     keeper: Keeper | None = None,
 ) -> Result:
     """Advance until a limit is met, and assemble what was measured; see `run`."""
-    n_realizations = check.size(
-        "n_realizations", n_realizations, LEAST_REALIZATIONS, MOST_REALIZATIONS
-    )
-    seed = check.whole("seed", seed, 0)
     limits.check_warm_up()
     session = Session(scenes, n_realizations, seed, options, limits, request)
     attrs = {"seed": seed, "n_realizations": n_realizations}

@@ -61,7 +61,7 @@ class Session:
         self.correlated = scenes[0].correlated
         self.tracker = tracker_for(limits.approaches, scenes[0].monitored, drift)
         self.precision = self.share = np.inf
-        self.failed = False
+        self.failed = self.broken_off = False
         self.unsettled = self.tracker.state()
         """What the tracker had found before it was asked for the last word, which a run that goes
         on must not know of."""
@@ -105,6 +105,7 @@ class Session:
 
     def advance(self) -> None:
         """One chunk, its faults checked, and the steady state looked for."""
+        self.broken_off = True  # until the chunk is in the history
         sampler = None if self.samples is None else self.samples.sampler
         watch = sampler is not None and (sampler.each or self.tracker.may_be_measured)
         with room_for(self.gases, self.options):
@@ -114,6 +115,7 @@ class Session:
         if self.samples is not None and watch:
             self.samples.extend(self.engine.watched, record.elapsed, self.history.length)
         self.history.append(record, sample)
+        self.broken_off = False
         if self.history.length >= self._next_check:
             self._next_check = 1.5 * self.history.length
             self._look_for_trouble()
@@ -250,8 +252,8 @@ class Session:
         rtol, points = self.limits.rtol, range(len(self.tracker.start))
         for estimates in (realization_estimates, printed_estimates):
             errors = [self._relative_errors(point, estimates) for point in points]
-            self.precision = max(max(point.values()) for point in errors)
-            self.share = max(point[name] / rtol[name] for point in errors for name in rtol)
+            self.precision = float(np.max([list(point.values()) for point in errors]))
+            self.share = float(np.max([point[n] / rtol[n] for point in errors for n in rtol]))
             if unless_too_large and self.share > 1.0:
                 return
 
@@ -262,11 +264,17 @@ class Session:
         if self.history.length - first < least:
             return dict.fromkeys(self.limits.observables, np.inf)
         value, error, _ = estimates(self.history, point, first, self.limits.observables)
+        unknown = [name for name in value if np.any(np.isnan(value[name]))]
+        if unknown and not self.correlated:
+            raise FaultError(
+                f"{unknown[0]} is not a number at some of what was run, so that it is never known "
+                "to a precision; name another observable."
+            )
         return {name: float(np.max(error[name] / np.abs(value[name]))) for name in value}
 
-    def progress(self) -> float:
-        """Share of the work done, as far as it can be known."""
-        limits = self.limits
+    def progress(self, limits: Limits | None = None) -> float:
+        """Share of the work done, as far as it can be known; of other limits than asked for."""
+        limits = limits or self.limits
         if limits.duration is not None:
             return min(1.0, float(np.min(self.history.reached("time"))) / limits.duration)
         if limits.collisions is not None:
@@ -274,5 +282,5 @@ class Session:
         done = self.spent / limits.budget
         if limits.records is not None:
             done = self.history.length / limits.records
-        precise = self.share**-2 if np.isfinite(self.share) else 0.0
+        precise = self.share**-2 if 0.0 < self.share < np.inf else 0.0
         return min(1.0, max(precise, done))

@@ -77,6 +77,10 @@ class AbstractScene(eqx.Module):
     running: ClassVar[tuple[str, ...]] = ()
     """Fields of a record that are increments: `averages` is handed their totals since the start."""
     samples_per_record: ClassVar[int] = 1
+    measured_at: ClassVar[float] = 0.0
+    """Where in a record the samples lie on average: 0 at its start, 1 at its end."""
+    counted: ClassVar[tuple[str, ...]] = ()
+    """Averages that count what happens all along a record, as collisions do: at walls, say."""
     default_time_step: ClassVar[float] = TIME_STEP
     default_steps: ClassVar[int] = STEPS_PER_RECORD
     """Time steps between two records if nothing else is asked."""
@@ -120,7 +124,7 @@ class AbstractScene(eqx.Module):
 
     @abstractmethod
     def advance(self, key: Any, state: Any, options: Options) -> tuple[Any, Any]:
-        """One record: what is measured at its start, and the steps that follow."""
+        """One record: what is measured at its start (see `measured_at`), and its steps."""
 
     def finish_chunk(self, state: Any) -> tuple[Any, Any]:
         """The state after a chunk of records, and a sample (a module of arrays) or None."""

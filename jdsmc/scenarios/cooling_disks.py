@@ -79,6 +79,7 @@ class CoolingDisks(AbstractCoolingDisks):
     def fit_options(self, options: Options) -> Options:
         """Raise ValueError for an unstable system; warn if cells hold few fictive particles."""
         self.check_stability(options.n_particles)
+        check.size("n_particles times copies", options.n_particles * self.copies, 64)
         columns = self.columns(options)
         in_cell = options.n_particles * self.copies / columns**2
         if columns > 1 and in_cell < FEWEST_IN_CELL:

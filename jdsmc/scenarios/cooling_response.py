@@ -28,7 +28,7 @@ from ..measure.moments import moments
 from ..measure.observable import Observable
 from ..measure.polynomials import ISOTROPIC
 from ..measure.responses import OBSERVABLES
-from ..motion.drive import held_at
+from ..motion.drive import held_at, temperature_of
 from ..types import Key, Particles, Scalar, Velocity
 from ..units import INITIAL_TEMPERATURE
 from .approach import MEASURED, Approach, cooling_rate, of_velocities
@@ -122,7 +122,7 @@ class CoolingResponse(AbstractHomogeneous):
             *(step, self.gas, key, velocity, state.majorant),
             *(sampled.temperature(), self.rate(), options),
         )
-        whole = jnp.zeros_like(elapsed), jnp.ones(2, elapsed.dtype)
+        whole = jnp.zeros_like(elapsed), jnp.ones(2, elapsed.dtype), temperature_of(velocity)
         record = ResponseRecord(sampled, tally, elapsed, *whole, pairs)
         return HomogeneousState(velocity, majorant), record
 
@@ -157,7 +157,8 @@ class CoolingResponse(AbstractHomogeneous):
         """What every homogeneous gas has, and the sums over pairs."""
         sums = {name: np.asarray(x) for name, x in vars(record.generator).items()}
         averages = super().averages(record) | sums
-        del averages["local_rate"], averages["local_loss"], averages["instant_rate"]
+        for name in ("local_rate", "local_loss", "instant_rate", "final_rate", "final_loss"):
+            del averages[name]
         return averages
 
     def observables(self, means: dict) -> dict:

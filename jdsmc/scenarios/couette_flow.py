@@ -79,6 +79,10 @@ class CouetteFlow(AbstractWalled):
         *("energy", "height", "tilt"),
         *("shear_stress", "mean_velocity"),
     )
+    counted: ClassVar[tuple[str, ...]] = (
+        *("shear_stress_lower_wall", "shear_stress_upper_wall"),
+        *("heat_flux_lower_wall", "heat_flux_upper_wall", "wall_work"),
+    )
 
     gas: AbstractGas
     wall_velocity: Any = number(

@@ -59,6 +59,7 @@ class FourierFlow(AbstractWalled):
     command: ClassVar[str] = "fourier"
     reports: ClassVar[tuple[Observable, ...]] = conduction.OBSERVABLES
     monitored: ClassVar[tuple[str, ...]] = ("energy", "height", "mean_heat_flux")
+    counted: ClassVar[tuple[str, ...]] = ("heat_flux_cold_wall", "heat_flux_hot_wall")
 
     gas: AbstractGas
     cold_temperature: Any = number(

@@ -178,6 +178,7 @@ class HeatFluxForce(AbstractHomogeneous):
             *(sampled, tally, elapsed * root),
             jnp.zeros_like(root),
             jnp.stack([jnp.ones_like(root), cube / root]),
+            after[-1],
             jnp.nanmax(runaway),
             elapsed / options.steps,
         )

@@ -71,11 +71,12 @@ class HomogeneousRecord(Record):
 
     `log_scale`: logarithm of what velocities were divided by before they were measured. `slowing`:
     averages over the steps, relative to the start, of what collisions and their loss of energy go
-    with.
+    with. `final`: temperature at the end.
     """
 
     log_scale: Scalar
     slowing: Float[Array, "2"]
+    final: Scalar
 
 
 class BalancedRecord(HomogeneousRecord):
@@ -145,6 +146,7 @@ class AbstractHomogeneous(AbstractScene):
             *(sampled.temperature(), self.rate(), options),
         )
         whole = sampled, tally, elapsed, jnp.zeros_like(elapsed), jnp.ones(2, elapsed.dtype)
+        whole = *whole, temperature_of(velocity)
         state = HomogeneousState(velocity, majorant)
         if noise is None:
             return state, HomogeneousRecord(*whole)
@@ -170,6 +172,8 @@ class AbstractHomogeneous(AbstractScene):
     def averages(self, record: HomogeneousRecord) -> dict[str, np.ndarray]:
         """Averages over the particles at each record."""
         found = homogeneous_averages(self.gas, record.moments, record.slowing)
+        found["final_rate"] = self.gas.collision_rate(record.final)
+        found["final_loss"] = self.gas.energy_loss_rate(record.final)
         if isinstance(record, BalancedRecord):
             found |= balances(record.moments, record.balance, record.elapsed)
         return found

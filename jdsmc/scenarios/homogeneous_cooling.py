@@ -123,7 +123,7 @@ class HomogeneousCooling(AbstractHomogeneous):
         slowing = jnp.ones(2, elapsed.dtype)
         if self.exponent is not None:
             slowing = slowed_rates(after, self.exponent)
-        record = HomogeneousRecord(sampled, tally, elapsed, log_scale, slowing)
+        record = HomogeneousRecord(sampled, tally, elapsed, log_scale, slowing, after[-1])
         return HomogeneousState(velocity, majorant), record
 
     def averages(self, record: HomogeneousRecord) -> dict[str, np.ndarray]:
@@ -132,7 +132,8 @@ class HomogeneousCooling(AbstractHomogeneous):
         elapsed, log_scale = (np.asarray(x) for x in (record.elapsed, record.log_scale))
         averages["log_plain_time"] = log_plain_time(elapsed, log_scale, self.exponent or 0.0)
         if self.exponent is not None:
-            del averages["instant_rate"]  # the steps know better
+            for name in ("instant_rate", "final_rate", "final_loss"):
+                del averages[name]  # the steps know better
         with np.errstate(under="ignore"):
             averages["true_temperature"] = averages["temperature"] * np.exp(2.0 * log_scale)
         log_temperature = np.log(averages["temperature"] / INITIAL_TEMPERATURE) + 2.0 * log_scale

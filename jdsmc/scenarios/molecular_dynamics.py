@@ -59,6 +59,7 @@ class MolecularDynamics(AbstractCoolingDisks):
     traced: ClassVar[bool] = False
     default_time_step: ClassVar[float] = 0.07
     default_steps: ClassVar[int] = 10
+    measured_at: ClassVar[float] = 1.0
 
     gas: InelasticHardDisks
     density: Any = density_field()

@@ -137,7 +137,7 @@ class AbstractSlab(AbstractScene):
         self, key: Key, layer: Layer, velocity: Velocities, duration: Scalar, options: Options
     ) -> tuple[Velocities, Collisions, Scalar]:
         """Collisions within the layers."""
-        few = options.n_particles < CROWDED * self.layers
+        few = options.n_particles <= CROWDED * self.layers
         return collide_in_layers(key, self.gas, layer, self.layers, velocity, duration, crowded=few)
 
     def faults(self, record: SlabRecord) -> str:

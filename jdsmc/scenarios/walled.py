@@ -94,6 +94,7 @@ class AbstractWalled(AbstractSlab):
 
     sampled: ClassVar[tuple[Observable, ...]] = AT_WALLS
     samples_per_record: ClassVar[int] = 8
+    measured_at: ClassVar[float] = 4.5 / 8.0  # samples come after the first to the last of 8 parts
     axis: ClassVar[str] = "z"
 
     @abstractmethod

@@ -59,7 +59,8 @@ def cooling_distribution(restitution: float, order: int) -> tuple[Floats, float]
         0 = 2 p mu (f_p + f_{p-1}) + int int f f int db g Delta h_pp / 2,   p = 1 ... order,
 
     with f_0 = 1 and f_1 = 0, which makes T the temperature and the first line the one for mu.
-    RuntimeError if Newton's method does not converge.
+    RuntimeError if Newton's method does not converge, or to what no distribution has: 2 (1 + a2) =
+    <c^4> >= <c^2>^2 = 1.
     """
     coefficients = np.zeros(order + 1)
     coefficients[0] = 1.0
@@ -79,6 +80,8 @@ def cooling_distribution(restitution: float, order: int) -> tuple[Floats, float]
         step = np.linalg.solve(jacobian[2:, 2:], -(rate + mu * drag)[2:])
         coefficients[2:] += step
         if np.max(np.abs(step)) < 1e-14 * (1 + np.max(np.abs(coefficients))):
+            if coefficients[2] < -0.5:
+                break
             return coefficients, float(-(gain[:, 1] @ coefficients) @ coefficients / 2)
     raise RuntimeError(f"No cooling state of Sonine order {order} at restitution {restitution:g}.")
 

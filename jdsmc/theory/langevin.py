@@ -20,10 +20,11 @@ exact one a dilute elastic gas has eta / eta0 = 1.0220.
 
 `truncation` holds for each number what the cut-offs of the expansion leave: the extrapolated rest
 in the degree of the moments plus the difference of two Sonine orders of the cooling state. At
-reduced_number >= 20 it is below 1e-4 (relative) for restitution >= 0.75, and at 0.7 for all but
-C(0) and the decay rate, 1.2e-4 there; towards smaller numbers it grows (elastic viscosity: 5e-5
-at 15, 5e-4 at 10, and the tail 1e-2 at 8). At 0.5 it is percents, as the expansion is only
-asymptotic; below 0.4 everything but the closed forms refuses.
+reduced_number >= 20 that of the viscosities is below 1e-4 (relative) for restitution >= 0.7, and
+so are C(0), the decay rate and the tail at 20; near the stability limit, where C(0) diverges, these
+lose digits (2e-4 at 0.75 and 28, 5e-4 at 0.7 and 24). Towards smaller numbers it grows (elastic
+viscosity: 5e-5 at 15, 5e-4 at 10, and the tail 1e-2 at 8). At 0.5 it is percents, as the expansion
+is only asymptotic; below 0.4 everything but the closed forms refuses.
 
 C(s) starts flat (momentum is conserved in a collision) and bends into the tail
 A exp(-s / tau) with A > C(0). The noise strength eta1 of (11) is that of C(0); the one of a white
@@ -174,15 +175,23 @@ def cooling_state(restitution: float, order: int | None = None) -> CoolingState:
     """The cooling state with Sonine polynomials up to `order` (3 to 8; None: the best known).
 
     Exact integrals of the collision operator, all products kept, so a2 differs from the published
-    linear estimate, by -0.0045 at restitution 0.8. ValueError outside the ranges.
+    linear estimate, by -0.0045 at restitution 0.8. ValueError outside the ranges, and for an order
+    of which the expansion, only asymptotic below 0.7, has no state (8 at 0.4).
     """
     alpha = _checked(restitution)
     if order is not None:
         at_least("order", order, 3)
         in_range("order", order, 3, 8)
-    upper = levels(alpha, None)[1][0] if order is None else int(order)
-    fine, mu = cooling_distribution(alpha, upper)
-    coarse, coarse_mu = cooling_distribution(alpha, upper - 1)
+    best = levels(alpha, None)[1][0]
+    upper = best if order is None else int(order)
+    try:
+        fine, mu = cooling_distribution(alpha, upper)
+        coarse, coarse_mu = cooling_distribution(alpha, upper - 1)
+    except RuntimeError:
+        raise ValueError(
+            f"order = {upper} is too high at restitution {alpha:g}: the expansion has no cooling "
+            f"state there; {best} is the best one."
+        ) from None
     signs = (-1.0) ** np.arange(len(fine))
     change = abs(mu - coarse_mu) / COLLISION_TIME + ROUNDING * mu
     return CoolingState(
@@ -205,13 +214,13 @@ def _level_table(alpha: float, wave_number: float, degree: int | None):
     """
     degrees, orders = levels(alpha, degree)
     cuts = [*((each, orders[0]) for each in degrees), (degrees[0], orders[1])]
-    rows = [
-        _derived(
-            solve(alpha, wave_number, *cut).primary, moments(alpha, *cut).growth_rate, wave_number
-        )
-        for cut in cuts
-    ]
-    return np.array(rows), degrees, orders
+
+    def row(cut):
+        primary = solve(alpha, wave_number, *cut).primary
+        return _derived(primary, moments(alpha, *cut).growth_rate, wave_number)
+
+    best = row(cuts[2])  # first: what is refused is then said of the degree that was asked for
+    return np.array([row(cuts[0]), row(cuts[1]), best, row(cuts[3])]), degrees, orders
 
 
 def _derived(primary: Floats, mu: float, wave_number: float) -> Floats:

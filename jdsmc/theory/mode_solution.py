@@ -60,7 +60,7 @@ def levels(restitution: float, degree: int | None) -> tuple[tuple[int, ...], tup
     degrees, orders = next(entry[1:] for entry in LEVELS if restitution >= entry[0])
     if degree is None:
         return degrees, orders
-    step = max(4, 2 * (degree // 8))
+    step = max(min(4, degrees[1] - degrees[0]), 2 * (degree // 8))
     return (degree - 2 * step, degree - step, degree), orders
 
 
@@ -78,16 +78,16 @@ def solve(restitution: float, wave_number: float, degree: int, order: int) -> So
     falling = np.argsort(-np.abs(weights))
     kept = falling[np.abs(weights[falling]) > NEGLIGIBLE * np.max(np.abs(weights))]
     solution = Solution(float(covariance[0, 0]), -values[kept], weights[kept])
+    if np.any(solution.rates[1:].real <= 0):
+        raise ValueError(
+            f"degree {degree} is too high at restitution {restitution:g}: moments grow that must "
+            f"not; at most {levels(restitution, None)[0][-1]} is safe."
+        )
     if solution.rates[0].imag != 0:
         number = (2 * np.pi / wave_number) ** 2
         raise ValueError(
             f"reduced_number = {number:g} is too small at restitution {restitution:g}: the mode "
             "does not end in one exponential, so there is no viscosity; about 8 or more is safe."
-        )
-    if np.any(solution.rates[1:].real <= 0):
-        raise ValueError(
-            f"degree {degree} is too high at restitution {restitution:g}: moments grow that must "
-            f"not; at most {levels(restitution, None)[0][-1]} is safe."
         )
     return solution
 

@@ -205,6 +205,27 @@ def test_bad_input_is_refused(arguments, message):
         transverse_mode(*arguments)
 
 
+def test_what_an_expansion_cannot_give_is_refused():
+    """Of order 8 at 0.4 Newton's method ends where <c^4> < <c^2>^2: no distribution has that."""
+    for restitution in (0.4, 0.42):
+        with pytest.raises(ValueError, match="order = 8 is too high"):
+            cooling_state(restitution, 8)
+    with pytest.raises(ValueError, match="degree 30 is too high"):
+        transverse_mode(0.5, 12, 30)
+
+
+def test_a_degree_where_lower_ones_are_hardly_enough():
+    mode, best = transverse_mode(0.45, 9, 12), transverse_mode(0.45, 9)
+    known = mode.truncation["viscosity_ratio"] + best.truncation["viscosity_ratio"]
+    assert abs(mode.viscosity_ratio - best.viscosity_ratio) < known
+
+
+@pytest.mark.parametrize(("reduced_number", "printed"), [(30, "1.10"), (20, "1.14"), (10, "1.24")])
+def test_amplitudes_of_the_tail_in_the_docs(reduced_number, printed):
+    """docs/cooling_fluctuations.md."""
+    assert f"{transverse_mode(1.0, reduced_number).tail_amplitude:.2f}" == printed
+
+
 def test_bad_types_and_times_are_refused():
     with pytest.raises(TypeError, match="restitution"):
         transverse_mode(np.array([0.8, 0.9]), 20)  # pyright: ignore[reportArgumentType]
