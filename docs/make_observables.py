@@ -62,10 +62,11 @@ Measured against published values in [couette_flow.md](couette_flow.md). `z` is 
 layer in λ0, or a share of the length if that is swept. Steady balances, exact:
 `heat_flux_lower_wall` - `heat_flux_upper_wall` + `wall_work` + `force_work` = `dissipation`;
 without a force, one shear stress in the slab and at both walls, and with it f L n̄ between the
-walls. With `wall_velocity` = 0 it is a Fourier flow that may lose energy, or Poiseuille flow under
-a `force`. A run ends by `shear_stress` between walls in motion, else by `mean_velocity` under a
-force, else by `dissipation` or the heat flux at the lower wall. `marginal_z_lower` and so on: as of
-`FourierFlow`.""",
+walls. The gas beside a wall slips, so that `heat_flux` there is not that of the wall: it lacks slip
+times stress. With `wall_velocity` = 0 it is a Fourier flow that may lose energy, or Poiseuille flow
+under a `force`. A run ends by `shear_stress` between walls in motion, else by `mean_velocity` under
+a force, else by `dissipation` or the heat flux at the lower wall. `marginal_z_lower` and so on: as
+of `FourierFlow`.""",
     "WhiteNoiseThermostat": """\
 Van Noije and Ernst, *Velocity distributions in homogeneous granular fluids* (1998). In the steady
 state a2 does not depend on the noise, and T follows from it: ξ² = ζT. Held to published values in

@@ -198,16 +198,20 @@ class Estimate:
         return self.value - reach, self.value + reach
 
     def distance(self, truth) -> float | np.ndarray:
-        """How many standard errors it lies above a number, or above another estimate."""
+        """How many standard errors it lies above a number, or above another estimate; none above
+        itself."""
         value, error = self - truth
-        return value / error
+        return value / np.where(value == 0, 1.0, error)[()]
 
     def __repr__(self) -> str:
         return f"Estimate({self})"
 
     def __format__(self, form: str) -> str:
         """As `str`; by a format of numbers, `f"{estimate:.3f}"`, value ± error in that format."""
-        return f"{self.value:{form}} ± {self.error:{form}}" if form else str(self)
+        if not form or not np.ndim(self.value):
+            return f"{self.value:{form}} ± {self.error:{form}}" if form else str(self)
+        rows = zip(np.ravel(self.value), np.ravel(self.error), strict=True)
+        return "\n".join(f"{value:{form}} ± {error:{form}}" for value, error in rows)
 
     def __str__(self) -> str:
         if np.ndim(self.value):

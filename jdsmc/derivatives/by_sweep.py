@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 
 from .. import check, sweep
-from ..errors import NotSteadyError
+from ..errors import NotSteadyError, unbroken
 from ..fields import ingredients
 from ..results.result import Result
 from ..results.sensitivity import Sensitivity
@@ -86,8 +86,10 @@ def sensitivity_by_sweep(
         except ValueError:
             if wrt is not True:
                 raise
-    centre = run(scene, **options)
-    slopes = [slopes_of(run(one, **options), name, *w) for name, (one, *w) in plans.items()]
+    centre = unbroken(run(scene, **options))
+    slopes = [
+        slopes_of(unbroken(run(one, **options)), name, *w) for name, (one, *w) in plans.items()
+    ]
     return with_slopes(centre, list(plans), slopes)
 
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from .. import check
 from .. import sweep as sweeps
+from ..errors import unbroken
 from ..estimate import Estimate
 from ..results.result import Result
 from ..running.checkpoint import check_none
@@ -56,7 +57,8 @@ def calibrate(
     relative deviations left (%), each with its error, over `restitution` and `target`. Where
     nothing matches there is NaN, and a remark says what comes nearest. Errors hold those of both
     gases.
-    Raises ValueError or TypeError for bad input, before anything is run, and what `run` raises.
+    Raises ValueError or TypeError for bad input, before anything is run, and what `run` raises;
+    after Ctrl-C `jdsmc.errors.Interrupted`, a KeyboardInterrupt with the `.result` of its run.
     """
     fits = targets_of(target, weights)
     free = _free(free, target, fits)
@@ -82,10 +84,11 @@ def calibrate(
     swept = elastic_sweep(elastic, alpha) if scaled else None
     if not isinstance(reference, AbstractScene):
         _wanted(reference, names[0], 1 if alpha is None else len(alpha))
-    reference = run(reference, **options) if isinstance(reference, AbstractScene) else reference
+    if isinstance(reference, AbstractScene):
+        reference = unbroken(run(reference, **options))
     wanted = {name: _wanted(reference, name, 1 if alpha is None else len(alpha)) for name in names}
     if swept is not None and alpha is not None:
-        made = run(swept, **options) if sweep is None else sweep
+        made = unbroken(run(swept, **options)) if sweep is None else sweep
         found = matches(alpha, fits, free, wanted, elastic, made)
         how = f"the elastic gas: {made.attrs['stopped']}"
     else:
@@ -104,7 +107,7 @@ def _transients(reference, model, fits: list[Target], free, options: dict) -> Re
     if isinstance(reference, AbstractScene):
         if "duration" not in options:
             raise ValueError("a transient needs duration, the time (τ0) for which it is followed.")
-        reference = run(reference, **options)
+        reference = unbroken(run(reference, **options))
     if not isinstance(reference, Result):
         raise TypeError("the reference of a transient must be a scene or a result.")
     ends = [transient(model, free, fit, reference, options) for fit in fits]

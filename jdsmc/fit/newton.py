@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from ..derivatives.sensitivity import sensitivity
+from ..errors import unbroken
 from ..estimate import Estimate, combine
 from ..results.result import Result
 from ..scenarios import AbstractScene
@@ -39,7 +40,7 @@ def newton(
     for turn in range(MOST_STEPS):
         here = replaced(model, dict(zip(free, numbers, strict=True)))
         found = sensitivity(here, free, **(options | {"seed": (seed + turn) % SEEDS}))
-        made: Any = found.result
+        made: Any = unbroken(found.result)
         if any(name not in made for name in fit.names):
             return nothing(
                 free, f"no steady value to fit: {made.attrs['stopped']}".rstrip(".")

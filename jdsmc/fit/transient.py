@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import scipy
 
+from ..errors import unbroken
 from ..estimate import Estimate, combine
 from ..results.result import Result
 from ..running.estimates import against_time
@@ -79,7 +80,7 @@ class _Swept:
         axes = {name: np.exp(m + nodes) for name, m in zip(free, middle, strict=True)}
         self.free, self.middle = free, middle
         scene = replaced(model, axes)
-        self.result = run(scene, **options)
+        self.result = unbroken(run(scene, **options))
         order = self.result.dims
         offsets = np.array(list(itertools.product(nodes, repeat=len(free))))
         offsets = offsets[:, [order.index(name) for name in free]]

@@ -162,6 +162,13 @@ class Result:
             attrs["point"] = " ".join(filter(None, [attrs.get("point", ""), label]))
             if f"parameter_{name}" in attrs:
                 attrs[f"parameter_{name}"] = float(values[index])
+        if "gas" in chosen:  # of gases side by side
+            one = str(self.steady["gas"].values[chosen["gas"]])
+            for name in ("gas_model", "stopped"):
+                attrs[name] = attrs.get(f"{name}_{one}", attrs.get(name))
+                for other in self.steady["gas"].values:
+                    attrs.pop(f"{name}_{other}", None)
+            groups["/series"] = groups["/series"].dropna("sample", how="all", subset=["time"])
         attrs["swept"] = " ".join(name for name in self.dims if name not in chosen)
         picked = tuple(chosen.get(name, slice(None)) for name in self.dims)
         attrs[PLACES] = np.ravel(self._places()[picked])

@@ -66,7 +66,7 @@ class Keeper:
                 f"{previous(self.path)} exists, where the checkpoint before the last one is kept; "
                 "choose another name for checkpoint, or move that file."
             )
-        self._every = float(every)
+        self.every = float(every)
         self._told = {"scene": specification(scene), "chosen": specification(chosen)}
         json.dumps(self._told)  # what cannot be written is refused before the run
         self._lock: Lock | None = None
@@ -83,7 +83,7 @@ class Keeper:
 
     def is_due(self) -> bool:
         """True if it is time."""
-        return time.monotonic() - self._last >= max(self._every, self._took / SHARE)
+        return time.monotonic() - self._last >= max(self.every, self._took / SHARE)
 
     def keep(self, session: Session, stopped: str) -> None:
         """Write what the session has come to; every process of a run must call this.

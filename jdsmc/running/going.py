@@ -26,6 +26,7 @@ class UnderWay(NamedTuple):
     session: Session
     attrs: dict
     length: int
+    keeper: Keeper | None = None
 
 
 def go_on(
@@ -56,14 +57,17 @@ def go_on(
                     keeper.keep(session, stopped)
     except FaultError as error:
         if session.history.length:
-            error.result = made(scene, session, attrs, f"{FAULT}: {error}", whole=False)
+            told = f"{FAULT}: {error}"
+            error.result = made(scene, session, attrs, told, keeper, whole=False)
         raise
-    return concluded(scene, session, attrs, stopped)
+    return concluded(scene, session, attrs, stopped, keeper)
 
 
-def concluded(scene: AbstractScene, session: Session, attrs: dict, stopped: str) -> Result:
+def concluded(
+    scene: AbstractScene, session: Session, attrs: dict, stopped: str, keeper: Keeper | None = None
+) -> Result:
     """The result of a session that has ended; NotSteadyError if it failed to become steady."""
-    result = made(scene, session, attrs, stopped)
+    result = made(scene, session, attrs, stopped, keeper)
     if session.failed:
         error = NotSteadyError(stopped)
         error.result = result
@@ -72,12 +76,18 @@ def concluded(scene: AbstractScene, session: Session, attrs: dict, stopped: str)
 
 
 def made(
-    scene: AbstractScene, session: Session, attrs: dict, stopped: str, *, whole: bool = True
+    scene: AbstractScene,
+    session: Session,
+    attrs: dict,
+    stopped: str,
+    keeper: Keeper | None = None,
+    *,
+    whole: bool = True,
 ) -> Result:
     """The result of what a session has come to, steady values only if it can be trusted."""
     limits = session.limits
     known = whole and limits.can_be_steady and not session.failed
     told = attrs | limits.attributes() | {"stopped": stopped}
     result = assemble(scene, session, known, told)
-    result.under_way = UnderWay(scene, session, attrs, session.history.length)
+    result.under_way = UnderWay(scene, session, attrs, session.history.length, keeper)
     return result

@@ -28,8 +28,8 @@ def resume(
     """Go on with a run, to the bit as if it had never ended and the last limits had been asked for.
 
     Arguments:
-        source: the result of a run of this process; or a checkpoint (`run(checkpoint=...)`), which
-            is written to again as the run goes on.
+        source: the result of a run of this process; or a checkpoint (`run(checkpoint=...)`). That
+            of either is written to again as the run goes on.
         duration, collisions: counted from the start of the first run.
         observable, rtol, budget: as of `run`. What is not given is as it was; of a time and a
             precision the new one counts. With no limit at all a run that was ended goes on, and one
@@ -55,7 +55,7 @@ def resume(
             "this result cannot go on: it was loaded, joined, cut or copied, and holds no gas; "
             "resume the checkpoint of its run, or run its scene again."
         )
-    scene, session, attrs, length = under_way
+    scene, session, attrs, length, keeper = under_way
     if session.history.length != length:
         raise ValueError("this result has been gone on from already; go on from the latest one.")
     if session.broken_off:
@@ -65,10 +65,12 @@ def resume(
         )
     stopped = str(source.attrs["stopped"])
     if _is_done(stopped, asked):
-        return concluded(scene, session, attrs, stopped)
+        return concluded(scene, session, attrs, stopped, keeper)
     if asked:
         _ask(session, asked)
-    return go_on(scene, session, attrs, progress)
+    if keeper is not None:
+        keeper.every = float(every)
+    return go_on(scene, session, attrs, progress, keeper)
 
 
 def from_file(path: Path, kept: Kept, asked: dict, progress: bool, every: float) -> Result:

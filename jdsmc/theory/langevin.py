@@ -21,10 +21,11 @@ exact one a dilute elastic gas has eta / eta0 = 1.0220.
 `truncation` holds for each number what the cut-offs of the expansion leave: the extrapolated rest
 in the degree of the moments plus the difference of two Sonine orders of the cooling state. At
 reduced_number >= 20 that of the viscosities is below 1e-4 (relative) for restitution >= 0.7, and
-so are C(0), the decay rate and the tail at 20; near the stability limit, where C(0) diverges, these
-lose digits (2e-4 at 0.75 and 28, 5e-4 at 0.7 and 24). Towards smaller numbers it grows (elastic
-viscosity: 5e-5 at 15, 5e-4 at 10, and the tail 1e-2 at 8). At 0.5 it is percents, as the expansion
-is only asymptotic; below 0.4 everything but the closed forms refuses.
+so are C(0), the decay rate and the tail at 20 for >= 0.75; near the stability limit, where C(0)
+diverges, these lose digits (2e-4 at 0.75 and 28, 1.2e-4 at 0.7 and 20, 5e-4 at 0.7 and 24).
+Towards smaller numbers it grows (elastic viscosity: 5e-5 at 15, 5e-4 at 10, and the tail 1e-2 at
+8). At 0.5 it is percents, as the expansion is only asymptotic; below 0.4 everything but the closed
+forms refuses.
 
 C(s) starts flat (momentum is conserved in a collision) and bends into the tail
 A exp(-s / tau) with A > C(0). The noise strength eta1 of (11) is that of C(0); the one of a white

@@ -54,11 +54,11 @@ def draw(result):
     figure, panels = pictures.grid((7 if x else 6) + sampled, 4, 3.7)
     for panel, name in zip(panels, PROFILES, strict=False):
         pictures.profile(panel, steady, dims, name)
-        panel.set_xlabel("z (λ0), cold wall at 0")
+        panel.set_xlabel(f"{common.with_unit(steady, 'z', 'z')}, cold wall at 0")
     pictures.walls(panels[0], result, dims, "cold_temperature", lambda cold: [cold, 1.0])
     pictures.readable_log(panels[1], steady["density"].values)
     pictures.profile(panels[3], steady, dims, "pressure_zz", label=False, ls="--")
-    panels[3].set_xlabel("z (λ0), cold wall at 0")
+    panels[3].set_xlabel(f"{common.with_unit(steady, 'z', 'z')}, cold wall at 0")
     panels[3].autoscale()
     panels[3].plot([], [], "k-", lw=1.2, label="p")
     panels[3].plot([], [], "k--", lw=1.2, label="P_zz")

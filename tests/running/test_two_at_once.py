@@ -1,19 +1,22 @@
 """Two features together: what each does right alone."""
 
 import json
+import signal
 
 import jax.numpy as jnp
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
 import jdsmc
 from jdsmc import InelasticHardSpheres
-from jdsmc.errors import FaultError
+from jdsmc.errors import FaultError, Interrupted
 from jdsmc.estimate import combine
 from jdsmc.fit.transient import series_of
 from jdsmc.results import join_gases
 from jdsmc.running.limits import Limits
 from jdsmc.running.run import scenes_of
+from jdsmc.running.session import Session
 from jdsmc.scenarios import CouetteFlow, HomogeneousCooling, UniformShear
 
 from ..helpers import Viscoelastic, options
@@ -64,6 +67,19 @@ def test_gases_side_by_side_know_their_realizations():
     one, mine = (r["pressure_xx"] - r["pressure_yy"] for r in (joined.at(gas="one"), alone))
     assert one.error == pytest.approx(mine.error)
     assert stress[0].interval() == pytest.approx(alone["shear_stress"].interval())
+
+
+def test_one_of_the_gases_side_by_side_is_as_it_was():
+    """The longer series pads the other with NaN, which is taken off again."""
+    short = jdsmc.run(SCENE, collisions=2.0, **SMALL)
+    model = UniformShear(jdsmc.ElasticHardSpheres(0.7), 4.0)
+    long = jdsmc.run(model, collisions=20.0, **SMALL)
+    joined = join_gases({"ihs": short, "ehs": long})
+    for gas, alone in (("ihs", short), ("ehs", long)):
+        one = joined.at(gas=gas)
+        assert one.attrs["gas_model"] == alone.attrs["gas_model"]
+        assert np.array_equal(one.series["time"], alone.series["time"])
+        plt.close(one.plot())
 
 
 def test_an_observable_that_is_no_number_is_named():
@@ -125,6 +141,14 @@ def test_a_run_that_broke_off_within_a_chunk_does_not_go_on(monkeypatch):
         jdsmc.resume(result, collisions=20.0, progress=False)
 
 
+def test_what_goes_on_in_one_process_is_kept_as_before(tmp_path):
+    path = tmp_path / "run.h5"
+    first = jdsmc.run(SCENE, collisions=2.0, checkpoint=path, **SMALL)
+    later = jdsmc.resume(first, collisions=6.0, progress=False)
+    kept = jdsmc.resume(path, progress=False)
+    assert kept.series.equals(later.series)
+
+
 def test_one_run_has_one_checkpoint(tmp_path):
     options = {"checkpoint": tmp_path / "x.h5", **SMALL}
     with pytest.raises(ValueError, match="keeps one run"):
@@ -143,3 +167,19 @@ def test_points_by_labelled_values():
     result = jdsmc.run(sweep, collisions=40.0, **SMALL)
     for value in result.steady["restitution"]:
         assert result.at(restitution=value).attrs["parameter_restitution"] == float(value)
+
+
+def test_ctrl_c_ends_a_calibration(monkeypatch):
+    """Where it is: the run under way ends, and its result is not taken for a whole one."""
+    usual, chunks = Session.advance, iter(range(100))
+
+    def advance(self):
+        usual(self)
+        if next(chunks) == 2:
+            signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(Session, "advance", advance)
+    model = UniformShear(jdsmc.ElasticHardSpheres(0.7), 4.0)
+    with pytest.raises(Interrupted, match="interrupted after") as caught:
+        jdsmc.fit.calibrate(SCENE, model, n_particles=256, progress=False)
+    assert caught.value.result.interrupted
